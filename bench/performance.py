@@ -29,10 +29,10 @@ from measured import quotients, spread, table  # noqa: E402
 from readme import lead_links_to, put_table  # noqa: E402
 
 DOCUMENT = "performance.md"
-# Parts of study.py and how often they are measured; a round of all takes 3 minutes, one of all scenes
+# Parts of study.py and how often they are measured; a round of all takes 4 minutes, one of all scenes
 # of scaling.py 2.
-PARTS = {"steps": 4, "isa": 4, "density": 4, "size": 3, "cloud": 4, "queues": 3, "kernels": 3,
-         "calendars": 3}
+PARTS = {"steps": 4, "isa": 4, "density": 4, "size": 3, "cloud": 4, "mixtures": 3, "queues": 3,
+         "kernels": 3, "calendars": 3}
 SCALING_ROUNDS = 4
 
 
@@ -112,6 +112,35 @@ def cloud_text(content):
             f"(`needlework bench cloud`).\n")
 
 
+def mixture_table(content):
+    """Needles of two lengths over those of one length that collide as often, as `auto` has them, and
+    what one grid for all of them takes of that."""
+    cost_of, densities, mixtures = {}, [], []
+    for scene, (one_grid, auto) in study.baselines_first(content).items():
+        density, mixture = scene.split(",", 1)
+        cost_of[mixture, density] = auto["us_per_collision"], one_grid["us_per_collision"]
+        densities += [density] if density not in densities else []
+        mixtures += [mixture] if mixture not in mixtures else []
+    of_one_length = mixtures.pop(0)
+
+    def cells(mixture):
+        for density in densities:
+            if (mixture, density) not in cost_of:
+                yield "the box is too small"
+                continue
+            auto, one_grid = cost_of[mixture, density]
+            alone, _ = cost_of[of_one_length, density]
+            over = statistics.median(quotients(one_grid, auto))
+            yield f"{spread(quotients(auto, alone))}; {over:.2f}"
+
+    def words(mixture):
+        lengths, share = mixture.split(",")
+        return f"{lengths}, {'half of all' if share == '50%' else f'{share[:-1]} % of all'}"
+
+    return table(["long needles", *(density.replace("n=", "n ⟨L⟩³ = ") for density in densities)],
+                 [[words(mixture), *cells(mixture)] for mixture in mixtures])
+
+
 def thread_table(contents):
     rows = []
     for name in (*scaling.STRONG, *scaling.ENSEMBLE):
@@ -148,6 +177,7 @@ def blocks(contents, threads):
     out = {}
     for part, name, make in (("density", "classical", classical_table), ("steps", "steps", step_table),
                              ("isa", "isa", isa_table), ("size", "size", size_table),
+                             ("mixtures", "mixtures", mixture_table),
                              ("cloud", "cloud", cloud_text)):
         if part in contents:
             text = make(contents[part])

@@ -197,6 +197,7 @@ SECTIONS = {  # part: title, what makes its table
     "storage": ("Storage by place or by id", case_table),
     "hulls": ("Sides of cells and radii of capsules: us per collision", volume_size_table),
     "cloud": ("A cloud: cells for the whole box, and as chosen", case_table),
+    "mixtures": ("Mixtures: in one grid, and as chosen", case_table),
     "queues": ("Calendars", case_table),
     "isa": ("Instruction sets", case_table),
     "effects": ("Effects", case_table),

@@ -214,6 +214,16 @@ class Performance(unittest.TestCase):
                 "steps": self.content(baseline, heap, one("s", "auto indexed-heap avx2", [8.0, 8.0]),
                                       auto)}
 
+    def test_compare_mixtures_with_needles_of_one_length(self):
+        one, times = self.case_of, {"N=9": (9.0, 6.0), "1:4,50%": (8.0, 12.0), "1:4,1%": (24.0, 9.0)}
+        cases = [one(f"n={n},{what}", words, [factor * t[k] for factor in (1, 2)], baseline=k == 0)
+                 for n in ("0.1", "1") for what, t in times.items() if (n, what) != ("1", "1:4,1%")
+                 for k, words in enumerate(("linked-cells auto avx2", "auto auto avx2"))]
+        text = performance.mixture_table(self.content(*cases))
+        self.assertIn("| long needles | n ⟨L⟩³ = 0.1 | n ⟨L⟩³ = 1 |", text)
+        self.assertIn("| 1:4, half of all | 2.00 (2.00–2.00); 0.67 | 2.00 (2.00–2.00); 0.67 |", text)
+        self.assertIn("| 1:4, 1 % of all | 1.50 (1.50–1.50); 2.67 | the box is too small |", text)
+
     def threads(self):
         def run(kind, n, us):
             return {"name": f"dilute/{kind}/threads:{n}", "threads": n, "needles": 10000,

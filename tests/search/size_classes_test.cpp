@@ -23,15 +23,25 @@ SizeClasses classes_of(const Gas& gas, const SearchSetup& setup = {}) {
 }
 
 TEST(SizeClasses, HoldNeedlesOfSimilarLength) {
-  const Gas gas = gas_with({1, 20, 1.5, 5}, 80, 60);
-  const SizeClasses classes = classes_of(gas);
+  std::vector<double> lengths{1, 20, 5, 5, 5};
+  lengths.insert(lengths.end(), 12, 1.5);
+  const SizeClasses classes = classes_of(gas_with(lengths, 340, 60));  // 20 of each species
   ASSERT_EQ(classes.all.size(), 3u);
-  EXPECT_EQ(classes.of_species, (std::vector<std::uint8_t>{2, 0, 2, 1}));
+  std::vector<std::uint8_t> expected{2, 0, 1, 1, 1};
+  expected.insert(expected.end(), 12, 2);
+  EXPECT_EQ(classes.of_species, expected);
   EXPECT_EQ(classes.all[0].longest, 20);
   EXPECT_EQ(classes.all[1].longest, 5);
   EXPECT_EQ(classes.all[2].longest, 1.5);
   EXPECT_EQ(classes.all[0].count, 20u);
-  EXPECT_EQ(classes.all[2].count, 40u);
+  EXPECT_EQ(classes.all[1].count, 60u);
+  EXPECT_EQ(classes.all[2].count, 260u);
+}
+
+// Few short needles among long ones do not pay for a grid of their own.
+TEST(SizeClasses, AreOneIfNeedlesAreLongOnAverage) {
+  EXPECT_EQ(classes_of(gas_with({1, 20}, 80, 60)).all.size(), 1u);
+  EXPECT_EQ(classes_of(gas_with({1, 1, 20}, 90, 60)).all.size(), 2u);
 }
 
 // Whatever is chosen for one species is chosen for species of one length.
@@ -49,19 +59,19 @@ TEST(SizeClasses, OfOneLengthAreOneWithTheSizesOfOneSpecies) {
 }
 
 TEST(SizeClasses, AreOneIfASizeIsGiven) {
-  const Gas gas = gas_with({1, 20}, 80, 60);
+  const Gas gas = gas_with({1, 1, 20}, 90, 60);
   for (const auto& setup : {SearchSetup{.density = {}, .cell_side = 3, .capsule_radius = {}},
                             SearchSetup{.density = {}, .cell_side = {}, .capsule_radius = 0.5}}) {
     const SizeClasses classes = size_classes(gas, setup, BoundingVolume::capsule);
     ASSERT_EQ(classes.all.size(), 1u);
     EXPECT_EQ(classes.all[0].longest, 20);
-    EXPECT_EQ(classes.all[0].count, 80u);
+    EXPECT_EQ(classes.all[0].count, 90u);
   }
 }
 
 // Long needles collide often where short ones hardly do.
 TEST(SizeClasses, HaveTheBoundingVolumeThatSuitsThem) {
-  const Gas gas = gas_with({1, 20}, 800, 60);
+  const Gas gas = gas_with({1, 1, 20}, 1200, 60);
   const SizeClasses mixed = classes_of(gas, by_class);
   ASSERT_EQ(mixed.all.size(), 2u);
   EXPECT_EQ(mixed.all[0].kind, BoundingVolume::capsule);
@@ -85,8 +95,10 @@ TEST(SizeClasses, OfFewNeedlesHaveCellsNoLongerThanTheLongestNeedle) {
 
 // Threads lock cells of the common grid.
 TEST(SizeClasses, HaveCellsThatAreEachInOneOfTheCommonGrid) {
+  std::vector<double> of_three_classes{20, 5, 5, 5};
+  of_three_classes.insert(of_three_classes.end(), 13, 1);
   for (const double edge : {45.0, 130.0}) {
-    const Gas gas = gas_with({20, 1, 1, 1, 5}, 3000, edge);
+    const Gas gas = gas_with(of_three_classes, 5100, edge);
     for (const auto kind : {BoundingVolume::cell, BoundingVolume::capsule}) {
       BoundingVolumes volumes(gas, by_class, kind);
       ASSERT_EQ(volumes.classes.size(), 3u);
