@@ -33,8 +33,7 @@ SizeClasses grouped_by_length(const Gas& gas) {
   for (std::size_t s = 0; s < counts.size(); ++s) {
     if (counts[s] > 0) needles_of[extent(s)] += counts[s];
   }
-  const double most =
-      gas.composition.are_spheres() ? most_over_mean_of_spheres : most_over_mean;
+  const double most = gas.composition.are_spheres() ? most_over_mean_of_spheres : most_over_mean;
   SizeClasses out;
   std::map<double, std::size_t> class_of;
   double lengths = 0;  // sum of those in the last class

@@ -1,9 +1,9 @@
 // Needles of similar length, for which one grid of cells will do.
 //
 // A search looks for partners as far away as the longest needle of a grid may reach. Among needles
-// of very different lengths that is far for the short ones, and where these are many, there are many
-// to look through. So species form classes, each with a grid of its own and with a bounding volume
-// and sizes that suit it.
+// of very different lengths that is far for the short ones, and where these are many, there are
+// many to look through. So species form classes, each with a grid of its own and with a bounding
+// volume and sizes that suit it.
 #pragma once
 
 #include <cstddef>

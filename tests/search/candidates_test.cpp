@@ -97,8 +97,10 @@ INSTANTIATE_TEST_SUITE_P(
         Setting{"far_from_records", 20, {2.2, 3.3, 4.4}, thermal, 1, 2, 150, 0, 1500},
         Setting{"of_length_0p6", 100, {1.3, 2, 3}, thermal, 0.5, 0.05, 200, 0.3, 1500, {0.6}},
         Setting{"of_length_3", 40, {6.1, 7, 9}, thermal, 1, 0.1, 200, 0.3, 1000, {3}},
-        Setting{"of_two_lengths", 80, {3, 3.1, 3.2}, thermal, 0.7, 0.05, 200, 0.3, 500, {1, 0.2, 0.2}},
-        Setting{"of_many", 80, {4, 4.1, 4.2}, thermal, 1, 0.1, 200, 0.3, 500, {1.9, 1, 0.3, 0.3, 0.3}}),
+        Setting{
+            "of_two_lengths", 80, {3, 3.1, 3.2}, thermal, 0.7, 0.05, 200, 0.3, 500, {1, 0.2, 0.2}},
+        Setting{
+            "of_many", 80, {4, 4.1, 4.2}, thermal, 1, 0.1, 200, 0.3, 500, {1.9, 1, 0.3, 0.3, 0.3}}),
     [](const auto& info) { return std::string(info.param.name); });
 
 // Searches count time from a moment that they move forward when it lies 8 flights back, with a unit
