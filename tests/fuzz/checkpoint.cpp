@@ -48,6 +48,20 @@ output.file = ")" +
   return path;
 }
 
+// Ends with needles in contact.
+std::string run_sliding() {
+  const std::string path = fuzz::folder() / "sliding.h5";
+  const SlidingContacts contacts = *fuzz::run_scene(R"(
+needles = { count = 12, box = 2.5, seed = 4 }
+collisions = { epsilon = 0.3, sliding = true }
+engine.threads = 1
+until.collisions_per_needle = 20
+output.file = ")" + path + "\"\n");
+  fuzz::require(contacts.entered >
+                contacts.ended_by_force + contacts.ended_by_tip + contacts.ended_by_strike);
+  return path;
+}
+
 // Overwrites, inserts or removes bytes.
 void change(std::string& content, FuzzedDataProvider& data) {
   constexpr std::uint64_t odd[] = {0, 1, 2, 255, 1ull << 31, 1ull << 32, 1ull << 62, ~0ull};
@@ -115,11 +129,11 @@ void resume_a_little(const std::string& output) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
-  static const std::array<Base, 2> bases{base_of(run_plain()),
-                                         base_of(fuzz::run_with_everything())};
+  static const std::array<Base, 3> bases{base_of(run_plain()), base_of(fuzz::run_with_everything()),
+                                         base_of(run_sliding())};
   io::set_reads_in_child_process(false);
   FuzzedDataProvider data(bytes, size);
-  const Base& base = bases[data.ConsumeIntegralInRange<std::size_t>(0, 1)];
+  const Base& base = bases[data.ConsumeIntegralInRange<std::size_t>(0, bases.size() - 1)];
   std::string content = base.content;
   for (int changes = 0; changes < 20 && data.remaining_bytes() > 0; ++changes) {
     change(content, data);

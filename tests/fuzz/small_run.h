@@ -1,6 +1,7 @@
 // Runs of a few needles that fuzz targets begin with.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "needlework/parse.h"
@@ -17,11 +18,12 @@ class Silent : public runs::RunMonitor {
   void show(const runs::Progress&) override {}
 };
 
-/// Runs a scene, which names its output file.
-inline void run_scene(const std::string& text) {
+/// Runs a scene, which names its output file; what has become of contacts, if needles may slide.
+inline std::optional<SlidingContacts> run_scene(const std::string& text) {
   runs::PreparedRun run(runs::complete_scene(parse_scene(text, "scene")), true, "scene");
   Silent silent;
   run.drive(silent);
+  return run.simulation().sliding_contacts();
 }
 
 /// The output file of a run with events, frames and all observables.

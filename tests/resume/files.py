@@ -78,6 +78,20 @@ frames = 4
 events = true
 checkpoint_every = 0.02
 observables = ["wall_profiles", "centre_of_mass"]
+""",
+    "sliding": """
+needles = { count = 250, box = [5, 5, 6] }
+collisions = { epsilon = 0.4, sliding = true }
+driving.andersen = { rate = 0.3, temperature = 1 }
+until.time = 8.02
+[[walls]]
+axis = "z"
+side = "both"
+[output]
+frames = 4
+events = true
+checkpoint_every = 0.02
+observables = ["displacement", "collision_statistics"]
 """}
 
 # The datasets whose lengths are the numbers of complete rows.

@@ -1,8 +1,8 @@
 """A long run that is stopped, saved and continued many times ends as one that was never stopped.
 
-    soak.py NEEDLEWORK COLLISIONS [RESUMES] [SEED] [EFFECTS]
+    soak.py NEEDLEWORK COLLISIONS [RESUMES] [SEED] [GAS]
 
-The same gas, with EFFECTS a vibrated and kicked one under gravity, runs twice: once in one piece,
+The same gas, one of GASES, runs twice: once in one piece,
 once with another search in RESUMES + 1 pieces on changing numbers of threads and instruction sets,
 half of them ended by kill -9. Checkpoints are written every few seconds, or more often where a
 piece takes less than that. Both end with the same
@@ -27,12 +27,20 @@ needles = {{ count = {NEEDLES}, box = 7 }}
 frames = 2
 observables = ["velocity_moments", "displacement", "collision_statistics"]
 """
-EFFECTS = """
+GASES = {
+    "elastic": "",
+    # vibrated and kicked, under gravity
+    "effects": """
 forces.gravity = [0, 0, -0.5]
 driving = { kicks = { every = 0.2, translational = 0.1, rotational = 0.1 } }
 collisions = { epsilon = 0.95, tc_relative = 1e-3 }
 walls = [{ axis = "z", side = "low", epsilon = 0.95, motion = { amplitude = 0.1, frequency = 1.5 } }]
-"""
+""",
+    # with contacts that threads, pieces and checkpoints hold
+    "sliding": """
+collisions = { epsilon = 0.4, sliding = true }
+driving.andersen = { rate = 0.3, temperature = 1 }
+"""}
 SEARCHES = ["linked-cells", "capsules"]  # of the whole run and of the one in pieces
 THREADS = [1, 1, 1, 2]
 ISAS = ["auto", "auto", "auto", "sse4", "scalar"]
@@ -121,12 +129,12 @@ def main():
     program, collisions = str(Path(sys.argv[1]).resolve()), int(float(sys.argv[2]))
     resumes = int(sys.argv[3]) if len(sys.argv) > 3 else 20
     seed = int(sys.argv[4]) if len(sys.argv) > 4 else 1
-    effects = EFFECTS if sys.argv[5:] == ["EFFECTS"] else ""
+    gas = GASES[sys.argv[5] if len(sys.argv) > 5 else "elastic"]
     print(f"seed {seed}")
     with tempfile.TemporaryDirectory() as folder:
         soak = Soak(program, folder, collisions, seed)
         every = 2 if collisions >= 10**7 else 0.05
-        soak.scene.write_text(effects + SCENE + f"checkpoint_every = {every}\n")
+        soak.scene.write_text(gas + SCENE + f"checkpoint_every = {every}\n")
         began = time.monotonic()
         whole = soak.whole()
         seconds = time.monotonic() - began
