@@ -390,6 +390,8 @@ typedef struct needlework_contacts {
   uint64_t crowded;         /* collisions whose epsilon was raised, as one of the needles had just
                                touched another one or a wall */
   double time;              /* that pairs have been in contact, without that of present steps */
+  double share;             /* of its time that a needle has been in contact, on average:
+                               2 time / (N t); NaN at the start */
 } needlework_contacts;
 
 /* Copies what is known of contacts; all 0 in a scene without collisions.sliding. [handle] */

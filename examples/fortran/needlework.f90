@@ -108,7 +108,7 @@ module needlework
 
   type, bind(c) :: needlework_contacts
     integer(c_int64_t) :: entered, ended_by_force, ended_by_tip, ended_by_strike, crowded
-    real(c_double) :: time
+    real(c_double) :: time, share
   end type
 
   type, bind(c) :: needlework_energy_budget

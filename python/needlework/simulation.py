@@ -105,6 +105,8 @@ class SlidingContacts(Values):
     wall."""
     time: float
     """That pairs have been in contact, of all together, without that of their present steps."""
+    share: float
+    """Of its time that a needle has been in contact, on average: 2 time / (N t); NaN at the start."""
 
 
 class EnergyBudget(Values):

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "src/c/handle.h"
+#include "src/runs/contact_share.h"
 
 using namespace needlework;
 
@@ -38,14 +39,16 @@ int needlework_get_wall(needlework_simulation* simulation, size_t index, needlew
 int needlework_get_contacts(needlework_simulation* simulation, needlework_contacts* contacts) {
   return c::guarded(simulation, [&](needlework_simulation& self) {
     c::require(contacts, "contacts");
-    const SlidingContacts found =
-        self.run.simulation().sliding_contacts().value_or(SlidingContacts{});
+    const Simulation& gas = self.run.simulation();
+    const auto counted = gas.sliding_contacts();
+    const SlidingContacts found = counted.value_or(SlidingContacts{});
     *contacts = {.entered = found.entered,
                  .ended_by_force = found.ended_by_force,
                  .ended_by_tip = found.ended_by_tip,
                  .ended_by_strike = found.ended_by_strike,
                  .crowded = found.crowded,
-                 .time = found.time};
+                 .time = found.time,
+                 .share = counted ? runs::contact_share(gas, found) : 0};
   });
 }
 

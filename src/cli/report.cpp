@@ -158,7 +158,7 @@ std::string json_of(const Report& report) {
   if (simulation.composition().has_width()) serve::add_rods(json, scene, simulation);
   if (!scene.walls.empty()) serve::add_walls(json, simulation);
   if (acts_on_single_needles(scene)) serve::add_energy_budget(json, simulation);
-  if (const auto contacts = simulation.sliding_contacts()) serve::add_contacts(json, *contacts);
+  serve::add_contacts(json, simulation);
   json["theory"] = nullptr;
   if (const auto theory = report.theory_at(last)) {
     json["theory"] = {{"energy", number(theory->energy())},

@@ -10,6 +10,7 @@
 #include "src/cli/report.h"
 #include "src/composition/pair_name.h"
 #include "src/runs/amount_text.h"
+#include "src/runs/contact_share.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/exact_rates.h"
 #include "src/runs/rod_totals.h"
@@ -264,6 +265,11 @@ std::string summary_of(const Report& report) {
     text += line("contacts", "{} entered; {} ended by force, {} at a tip, {} by a strike",
                  contacts->entered, contacts->ended_by_force, contacts->ended_by_tip,
                  contacts->ended_by_strike);
+    if (last.time > 0) {
+      text.pop_back();
+      text += fmt::format("; {} of the time of a needle\n",
+                          per_cent(runs::contact_share(report.simulation, *contacts)));
+    }
   }
   text += rod_line(report);
   text += wall_lines(report);

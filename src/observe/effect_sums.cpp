@@ -155,6 +155,11 @@ class ContactSums : public Observable {
          "Time that pairs have been in contact, of all together, without that of present steps",
          unit::time,
          {}},
+        {"share",
+         "Share of its time since the start of the run that a needle has been in contact, the mean "
+         "of all: 2 time / (N t); NaN at the start",
+         unit::none,
+         {}},
     };
   }
 
@@ -166,6 +171,8 @@ class ContactSums : public Observable {
       row.put(static_cast<double>(number));
     }
     row.put(contacts.time);
+    // As runs::contact_share().
+    row.put(2 * contacts.time / (static_cast<double>(now.gas.count) * now.totals.time));
   }
 
   bool reads_state() const override { return false; }

@@ -18,6 +18,7 @@
 #include "src/python/interpreter.h"
 #include "src/python/monitor.h"
 #include "src/python/scene_source.h"
+#include "src/runs/contact_share.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/load_checkpoint.h"
 #include "src/runs/output_path.h"
@@ -347,6 +348,7 @@ py::object Run::sliding_contacts() {
   out["ended_by_strike"] = contacts->ended_by_strike;
   out["crowded"] = contacts->crowded;
   out["time"] = contacts->time;
+  out["share"] = runs::contact_share(run_->simulation(), *contacts);
   return std::move(out);
 }
 

@@ -132,6 +132,8 @@ Json scene_facts(const Scene& scene) {
           {"beta", scene.collisions.beta},
           {"tc", optional(scene.collisions.tc)},
           {"tc_relative", optional(scene.collisions.tc_relative)},
+          {"sliding_below",
+           scene.collisions.sliding ? Json(scene.collisions.sliding_below) : Json(nullptr)},
           {"walls", walls_of(scene)},
           {"gravity", scene.forces.gravity},
           {"driving", driving_of(scene.driving)},

@@ -49,7 +49,7 @@ Json summary_of(const runs::PreparedRun& run) {
   if (simulation.composition().has_width()) add_rods(answer, run.scene(), simulation);
   if (!run.scene().walls.empty()) add_walls(answer, simulation);
   if (acts_on_single_needles(run.scene())) add_energy_budget(answer, simulation);
-  if (const auto contacts = simulation.sliding_contacts()) add_contacts(answer, *contacts);
+  add_contacts(answer, simulation);
   return answer;
 }
 

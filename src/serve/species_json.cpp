@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "src/composition/pair_name.h"
+#include "src/runs/contact_share.h"
 #include "src/runs/rod_totals.h"
 
 namespace needlework::serve {
@@ -52,11 +53,16 @@ void add_energy_budget(Json& json, const Simulation& simulation) {
       [&](const char* name, const auto& energy) { budget[name] = energy; });
 }
 
-void add_contacts(Json& json, const SlidingContacts& contacts) {
-  json["contacts"] = {
-      {"entered", contacts.entered},           {"ended_by_force", contacts.ended_by_force},
-      {"ended_by_tip", contacts.ended_by_tip}, {"ended_by_strike", contacts.ended_by_strike},
-      {"crowded", contacts.crowded},           {"time", number_or_null(contacts.time)}};
+void add_contacts(Json& json, const Simulation& simulation) {
+  const auto contacts = simulation.sliding_contacts();
+  if (!contacts) return;
+  json["contacts"] = {{"entered", contacts->entered},
+                      {"ended_by_force", contacts->ended_by_force},
+                      {"ended_by_tip", contacts->ended_by_tip},
+                      {"ended_by_strike", contacts->ended_by_strike},
+                      {"crowded", contacts->crowded},
+                      {"time", number_or_null(contacts->time)},
+                      {"share", number_or_null(runs::contact_share(simulation, *contacts))}};
 }
 
 void add_rods(Json& json, const Scene& scene, const Simulation& simulation) {

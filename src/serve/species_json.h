@@ -20,9 +20,9 @@ void add_walls(nlohmann::ordered_json& json, const Simulation& simulation);
 /// are.
 void add_energy_budget(nlohmann::ordered_json& json, const Simulation& simulation);
 
-/// Adds "contacts", {entered, ended_by_force, ended_by_tip, ended_by_strike, crowded, time} since
-/// the start, where needles may slide on each other.
-void add_contacts(nlohmann::ordered_json& json, const SlidingContacts& contacts);
+/// Adds "contacts", {entered, ended_by_force, ended_by_tip, ended_by_strike, crowded, time, share}
+/// since the start, where needles may slide on each other.
+void add_contacts(nlohmann::ordered_json& json, const Simulation& simulation);
 
 /// Adds "rods", {packing_fraction, virial, pressure}, of rods of finite width; the latter two since
 /// the start.

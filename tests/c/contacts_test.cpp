@@ -17,6 +17,9 @@ TEST(CContacts, AreCounted) {
   EXPECT_LE(contacts.ended_by_force + contacts.ended_by_tip + contacts.ended_by_strike,
             contacts.entered);
   EXPECT_GT(contacts.time, 0);
+  needlework_totals totals{};
+  EXPECT_EQ(needlework_get_totals(gas, &totals), NEEDLEWORK_OK);
+  EXPECT_EQ(contacts.share, 2 * contacts.time / (60 * totals.time));
   EXPECT_EQ(needlework_get_contacts(gas, nullptr), NEEDLEWORK_USAGE);
 }
 

@@ -29,6 +29,8 @@ class Sliding(unittest.TestCase):
                          contacts.ended_by_strike)
         self.assertEqual(table.entered[-1], contacts.entered)
         self.assertEqual(table.time[-1], contacts.time)
+        self.assertEqual(table.share[-1], contacts.share)
+        self.assertEqual(contacts.share, 2 * contacts.time / (100 * 2))
 
     def test_there_are_none_without_sliding(self):
         self.assertIsNone(Simulation({"needles": {"count": 9, "box": 5.0}}).sliding_contacts)

@@ -135,6 +135,33 @@ TEST_F(Report, NamesWhatWasRunWithTheKeysSetOverTheScene) {
   EXPECT_EQ(run["parameters"]["title"]["value"], "known numbers");
 }
 
+// Not once for each species, as what is of a species.
+TEST_F(Report, ShowsContactsOfAMixtureOnce) {
+  const Scene scene = parse_scene(
+      "needles.box = 5\ncollisions = { epsilon = 0.5, sliding = true, sliding_below = 1e-4 }\n"
+      "until.time = 1\n[[species]]\nname = \"a\"\ncount = 2\n"
+      "[[species]]\nname = \"b\"\ncount = 1\nmass = 2\n",
+      "scene", {});
+  io::RunInfo info{"scalar", 2, 1.0};
+  info.series = {{"contacts", "Contacts", {{"entered", "Number", "", {}}}},
+                 {"displacement", "Of each species", {{"mean", "Mean", "", {{"species", 2}}}}}};
+  io::Writer writer(path("run.h5"), true, scene, info);
+  for (int n = 0; n < samples; ++n) writer.write_series(totals(n), std::vector{1.0 * n, 2.0, 3.0});
+  State first = state(3, 0);
+  first.species = {0, 0, 1};
+  writer.write_frame(totals(0), first);
+  writer.close();
+  const test::PageData page = page_of({"run.h5"});
+  const json& run = page.json["sections"][0];
+  EXPECT_EQ(run["scene"]["sliding_below"], 1e-4);
+  EXPECT_EQ(run["groups"]["contacts"]["description"], "Contacts.");
+  ASSERT_EQ(run["parts"].size(), 2);
+  for (const json& part : run["parts"]) {
+    EXPECT_TRUE(part["groups"].contains("displacement"));
+    EXPECT_FALSE(part["groups"].contains("contacts")) << part["name"];
+  }
+}
+
 TEST_F(Report, DrawsNeedlesWhereTheyAre) {
   write_run("run.h5");
   const test::PageData page = page_of({"run.h5"});

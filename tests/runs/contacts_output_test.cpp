@@ -1,10 +1,12 @@
 // What files, totals and reports say of contacts of needles that slide on each other.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <vector>
 
 #include "src/io/contents.h"
+#include "src/runs/contact_share.h"
 #include "src/runs/prepared_run.h"
 #include "tests/runs/silent.h"
 #include "tests/support/runs.h"
@@ -47,6 +49,9 @@ TEST(ContactsOutput, RowsAndSeriesAreThoseOfTheCounts) {
   EXPECT_EQ(last("ended_by_strike"), counted.ended_by_strike);
   EXPECT_EQ(last("crowded"), counted.crowded);
   EXPECT_EQ(last("time"), counted.time);
+  EXPECT_EQ(last("share"), contact_share(run.simulation(), counted));
+  EXPECT_EQ(last("share"), 2 * counted.time / (150 * 3.0));
+  EXPECT_TRUE(std::isnan(contents.numbers("/series/contacts/share/value").front()));
 }
 
 }  // namespace

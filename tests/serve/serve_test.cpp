@@ -118,6 +118,8 @@ TEST(Serve, CountsContacts) {
   EXPECT_GT(contacts["entered"], 20) << answers[1];
   EXPECT_GT(contacts["ended_by_tip"], 0);
   EXPECT_GT(contacts["time"], 0);
+  EXPECT_EQ(contacts["share"],
+            2 * contacts["time"].get<double>() / (60 * answers[1]["time"].get<double>()));
   EXPECT_FALSE(answers[3].contains("contacts"));
 }
 

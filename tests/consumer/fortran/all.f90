@@ -53,7 +53,7 @@ program all
   print '(a, 2f4.1, f7.4)', 'needles have no width', rods%packing_fraction, diameter, inertia
 
   call require(needlework_get_contacts(gas, contacts))
-  print '(a, i0, f4.1)', 'contacts ', contacts%entered, contacts%time
+  print '(a, i0, 2f4.1)', 'contacts ', contacts%entered, contacts%time, contacts%share
 
   call require(needlework_sample(gas, 1_c_int))
   call require(needlework_set_data(gas, 'bytes' // c_null_char, needlework_data_bytes, c_loc(bytes), &

@@ -87,6 +87,13 @@ diameter = ${diameter}
     needlework("run", `${name}.toml`, "--quiet");
     needlework("report", `${name}.h5`, "-o", `${name}.html`);
   }
+  write("sliding.toml", `needles = { count = 80, box = 4 }
+collisions = { epsilon = 0.3, sliding = true }
+until.time = 1
+output.file = "sliding.h5"
+`);
+  needlework("run", "sliding.toml", "--quiet");
+  needlework("report", "sliding.h5", "-o", "sliding.html");
   needlework("report", "gas.h5", "-o", "gas.html");
   needlework("report", "gas.h5", "other.h5", "sweep/summary.h5", "bench.json", "-o", "all.html");
   samples = Number(needlework("info", "gas.h5").match(/(\d+) samples/)[1]);
@@ -280,6 +287,17 @@ test("the place of a needle in the table is that in the box, whatever is drawn",
   });
   assert.equal(low[0], -0.5);
   assert.ok(low[1] > -0.5);
+  await close();
+});
+
+test("contacts and the time that needles spend in them are told", async () => {
+  const { page, close } = await open(browser, "sliding.html");
+  const facts = await page.locator(".facts").first().textContent();
+  assert.ok(facts.includes("Sliding contactwhere flights are below 0.001 mean free times"), facts);
+  assert.ok(!facts.includes("Contact-time rule"), facts);
+  const figures = await page.locator(".figures").textContent();
+  assert.match(figures, /Contacts entered\d+ ?ended by force \d+, at a tip \d+, by strikes \d+/);
+  assert.match(figures, /Time in contact[\d.]+ ?[\d.]+ % of that of all needles/);
   await close();
 });
 

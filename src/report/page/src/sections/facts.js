@@ -37,6 +37,10 @@ function contactTime({ tc, tc_relative }) {
   return tc_relative === null ? "none" : `t_c = ${numberText(tc_relative)} mean free times`;
 }
 
+function slidingText({ sliding_below }) {
+  return sliding_below === null ? null : `where flights are below ${numberText(sliding_below)} mean free times`;
+}
+
 function ofOneSpecies({ k, length, diameter, mass }) {
   if (diameter > 0) {
     return [
@@ -122,6 +126,17 @@ function resultsAtWalls(run) {
   });
 }
 
+// Contacts of needles that slide on each other, since the start of the run.
+function resultsOfContacts({ groups }) {
+  if (!groups.contacts) return [];
+  const last = (name) => column(groups.contacts.datasets[name]).at(-1);
+  const ends = `ended by force ${numberText(last("ended_by_force"))}, at a tip ${numberText(last("ended_by_tip"))}, by strikes ${numberText(last("ended_by_strike"))}`;
+  return [
+    ["Contacts entered", last("entered"), ends],
+    ["Time in contact", last("time"), `${numberText(100 * last("share"), 3)} % of that of all needles`],
+  ];
+}
+
 // Temperatures of each species at the last sample, and collisions of each two.
 function resultsBySpecies({ groups, scene }) {
   if (!groups.species || !scene?.species.length) return [];
@@ -159,7 +174,8 @@ export function factsOfRun({ scene, parameters, frames }) {
       ...(scene.species.length ? scene.species.map(speciesFact) : ofOneSpecies(scene)),
       ["Packing fraction", scene.packing_fraction],
       ["Initial state", scene.initial_file || (scene.species.length ? "drawn" : `drawn, T_tr = ${numberText(scene.t_tr)}, T_rot = ${numberText(scene.t_rot)}`)],
-      ["Contact-time rule", contactTime(scene)],
+      ["Contact-time rule", scene.sliding_below === null ? contactTime(scene) : null],
+      ["Sliding contact", slidingText(scene)],
       ["Started to run until", endText(scene.until)],
       ["Search, calendar", `${scene.search}, ${scene.queue}`],
     );
@@ -194,6 +210,7 @@ export function resultsOfRun(run) {
     ["Collisions", collisions, `${numberText((2 * collisions) / frames.needles_in_file)} per needle`],
     ["Elastic by the t_c rule", last("tc_collisions"), collisions ? `${numberText((100 * last("tc_collisions")) / collisions, 3)} %` : ""],
     ["S", order],
+    ...resultsOfContacts(run),
     ...resultsAtWalls(run),
     ...resultsBySpecies(run),
   ];

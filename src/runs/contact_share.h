@@ -1,0 +1,14 @@
+// What results say of the time that needles spend in contact with each other.
+#pragma once
+
+#include "needlework/simulation.h"
+
+namespace needlework::runs {
+
+/// The share of its time since the start that a needle has been in contact, the mean of all
+/// needles. NaN at the start.
+inline double contact_share(const Simulation& simulation, const SlidingContacts& contacts) {
+  return 2 * contacts.time / (static_cast<double>(simulation.needles()) * simulation.time());
+}
+
+}  // namespace needlework::runs
