@@ -395,6 +395,13 @@ def measure_part(store, bench, part, scale):
     print(f"{part}: {time.monotonic() - start:.0f} s", flush=True)
 
 
+def certainty_words(cost):
+    """For the README: what `standard` takes more than `fast`."""
+    over = {case["name"]: statistics.median(case["over_standard"]) for case in cost["cases"]}
+    more = sorted(max(0.0, 1 / over[f"{gas}/fast"] - 1) for gas in GASES)
+    return f"{100 * more[0]:.0f} to {100 * more[-1]:.0f} %"
+
+
 def stored(part):
     return f"accuracy-{part}"
 
@@ -403,7 +410,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("parts", nargs="*", metavar="PART", help=", ".join([*PARTS, "tables"]))
-    parser.add_argument("--readme", action="store_true", help="put the short table into docs/accuracy.md")
+    parser.add_argument("--readme", action="store_true",
+                        help="put the short table into docs/accuracy.md, and words into README.md")
     measured.add_options(parser)
     measured.add_machine(parser)
     arguments = parser.parse_args()
@@ -434,6 +442,7 @@ def main():
         if not {"cost", "audit", "pairs"} <= data.keys():
             sys.exit("--readme: expected cost, audit and pairs to be measured")
         readme.put_table("accuracy", "\n".join(tables.brief(data)), "accuracy.md")
+        readme.put_table("certainty", certainty_words(data["cost"]), "../README.md")
     if place.is_relative_to(readme.RESULTS):
         readme.lead_links_to(place.name)
     measured.report_missing(store, missing, place, tracked=True)
