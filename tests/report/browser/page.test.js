@@ -297,7 +297,7 @@ test("contacts and the time that needles spend in them are told", async () => {
   assert.ok(!facts.includes("Contact-time rule"), facts);
   const figures = await page.locator(".figures").textContent();
   assert.match(figures, /Contacts entered\d+ ?ended by force \d+, at a tip \d+, by strikes \d+/);
-  assert.match(figures, /Time in contact[\d.]+ ?[\d.]+ % of that of all needles/);
+  assert.match(figures, /Share of time in contact0\.\d+ ?mean of all needles/);
   await close();
 });
 

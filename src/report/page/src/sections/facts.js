@@ -133,7 +133,7 @@ function resultsOfContacts({ groups }) {
   const ends = `ended by force ${numberText(last("ended_by_force"))}, at a tip ${numberText(last("ended_by_tip"))}, by strikes ${numberText(last("ended_by_strike"))}`;
   return [
     ["Contacts entered", last("entered"), ends],
-    ["Time in contact", last("time"), `${numberText(100 * last("share"), 3)} % of that of all needles`],
+    ["Share of time in contact", last("share"), "mean of all needles"],
   ];
 }
 
