@@ -47,11 +47,11 @@ SlidingEntry sliding_entry(const SlidingBodies& bodies, const SlidingState& befo
     return reject(SlidingDecision::Crowded);
   }
   const double flight_pressed = pressing(bodies, bounced, out.side);
-  out.after = in_contact(bodies, after_impulse(bodies, before, contact, stop));
-  if (!(flight_pressed > 0) || !(pressing(bodies, out.after, out.side) > 0))
-    return reject(SlidingDecision::Parts);
+  if (!(flight_pressed > 0)) return reject(SlidingDecision::Parts);
   const double flight = 2 * epsilon * std::abs(contact.speed) / flight_pressed;
   if (epsilon > 0 && !(flight < below)) return reject(SlidingDecision::LongFlight);
+  out.after = in_contact(bodies, after_impulse(bodies, before, contact, stop));
+  if (!(pressing(bodies, out.after, out.side) > 0)) return reject(SlidingDecision::Parts);
   out.train = flight / (1 - epsilon);
   if (!lasts(bodies, out.after, out.side, 2 * out.train))
     return reject(SlidingDecision::ShortContact);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "kernels/sliding_frame.h"
+
 namespace needlework::kernels {
 namespace {
 
@@ -37,9 +39,11 @@ constexpr std::array<double, stages> integrals(double z) {
 }
 
 struct Collocation {
-  std::array<double, stages> node{};                             // in [0, 1]
-  std::array<std::array<double, stages>, stages> coefficient{};  // [k][node]: of P_k, from values
-  std::array<std::array<double, stages>, stages> integral{};     // [node][k]: of P_k, up to a node
+  std::array<double, stages> node{};  // in [0, 1]
+  // From values at the nodes, [k][node]: the coefficient of P_k.
+  std::array<std::array<double, stages>, stages> coefficient{};
+  // From the same, [end][node]: the integral from 0 to a node.
+  std::array<std::array<double, stages>, stages> integral{};
 };
 
 constexpr Collocation make_collocation() {
@@ -51,7 +55,12 @@ constexpr Collocation make_collocation() {
     const std::array<double, stages + 1> p = legendre(z);
     for (int k = 0; k < stages; ++k)
       out.coefficient[k][i] = (2 * k + 1) * (half_weights[half] / 2) * p[k];
-    out.integral[i] = integrals(z);
+  }
+  for (int i = 0; i < stages; ++i) {
+    const std::array<double, stages> up_to = integrals(2 * out.node[i] - 1);
+    for (int j = 0; j < stages; ++j) {
+      for (int k = 0; k < stages; ++k) out.integral[i][j] += up_to[k] * out.coefficient[k][j];
+    }
   }
   return out;
 }
@@ -75,30 +84,27 @@ SlidingState unpacked(const Components& in) {
   return {get(in, 0), get(in, 9), get(in, 3), get(in, 6), get(in, 12), get(in, 15)};
 }
 
+// Without roots: the force times the normal needs none.
 Components derivative(const SlidingBodies& bodies, const SlidingState& s) {
-  const SlidingContact contact = sliding_contact(bodies, s);
-  // Not by differences of states: velocities and accelerations are not of one unit.
-  SlidingState still = s;
-  still.v = still.w_first = still.w_second = {};
-  const SlidingState pushed = after_impulse(bodies, still, contact, contact.force);
+  const SlidingFrame frame = sliding_frame(bodies, s);
+  const Vec3d push = frame.across * (-frame.bent / (frame.square * frame.inverse));
+  const double masses = 1 / bodies.first.mass + 1 / bodies.second.mass;
+  const double lever1 = frame.arm_first / bodies.first.inertia;
+  const double lever2 = frame.arm_second / bodies.second.inertia;
   Components out;
-  put(out, 0, s.v), put(out, 3, cross(s.w_first, s.u_first));
-  put(out, 6, cross(s.w_second, s.u_second)), put(out, 9, pushed.v);
-  put(out, 12, pushed.w_first), put(out, 15, pushed.w_second);
+  put(out, 0, s.v), put(out, 3, frame.turn_first), put(out, 6, frame.turn_second);
+  put(out, 9, push * masses), put(out, 12, cross(s.u_first, push) * lever1);
+  put(out, 15, cross(s.u_second, push) * -lever2);
   return out;
 }
 
 // What makes a change of a slope a displacement over the span: of centres in lengths, of directors
 // in radians.
-struct Scale {
-  Components time, unit;
-};
-
-Scale scale_of(const SlidingStep& step, double length) {
-  Scale out;
+Components scale_of(const SlidingStep& step, double length) {
+  Components out;
   for (int c = 0; c < components; ++c) {
-    out.unit[c] = c < 3 || (c >= 9 && c < 12) ? 1 / length : 1;
-    out.time[c] = c < 9 ? step.span : step.span * step.span;
+    const double unit = c < 3 || (c >= 9 && c < 12) ? 1 / length : 1;
+    out[c] = (c < 9 ? step.span : step.span * step.span) * unit;
   }
   return out;
 }
@@ -122,43 +128,45 @@ Components weighted(const Rows& rows, const std::array<double, stages>& weights)
 
 // Whether the series has fallen to rounding within its terms. Next to parallel needles, and where
 // the rate grows during the step, it has not.
-bool is_resolved(const Rows& slopes, const Scale& scale) {
+bool is_resolved(const Rows& slopes, const Components& scale) {
   for (int c = 0; c < components; ++c) {
-    if (std::abs(slopes[stages - 1][c]) * scale.time[c] * scale.unit[c] > 0x1p-39) return false;
+    if (std::abs(slopes[stages - 1][c]) * scale[c] > 0x1p-39) return false;
   }
   return true;
 }
 
-// Slopes by fixed-point iteration, down to rounding. False if it does not get there, or if they are
-// not resolved.
+// Slopes by fixed-point iteration, down to rounding. Each node takes the newest slopes of those
+// before it, so that changes fall by two decades in a turn. False if it does not get there, or if
+// the slopes are not resolved.
 bool collocate(const SlidingBodies& bodies, double length, SlidingStep& step) {
   const Components begin = packed(step.begin);
-  const Scale scale = scale_of(step, length);
-  Rows slopes{};  // by degree
-  slopes[0] = derivative(bodies, step.begin);
+  const Components scale = scale_of(step, length);
+  Rows values;  // of the slopes, at the nodes
+  values.fill(derivative(bodies, step.begin));
   ++step.evaluations;
   double last = INFINITY;
   for (int turn = 0; turn < 40; ++turn) {
-    Rows values;
+    Components changes{};
     for (int i = 0; i < stages; ++i) {
-      Components y = weighted(slopes, collocation.integral[i]);
+      Components y = weighted(values, collocation.integral[i]);
       for (int c = 0; c < components; ++c) y[c] = begin[c] + step.span * y[c];
-      values[i] = derivative(bodies, unpacked(y));
+      const Components slope = derivative(bodies, unpacked(y));
+      for (int c = 0; c < components; ++c) changes[c] += std::abs(slope[c] - values[i][c]);
+      values[i] = slope;
+      // Nearer to those of the nodes behind than those at the beginning are.
+      if (turn == 0) std::fill(values.begin() + i + 1, values.end(), slope);
     }
     step.evaluations += stages;
-    double change = 0;  // by this turn
-    for (int k = 0; k < stages; ++k) {
-      const Components slope = weighted(values, collocation.coefficient[k]);
-      for (int c = 0; c < components; ++c) {
-        if (!(std::abs(slope[c]) < INFINITY)) return false;
-        const double by = std::abs(slope[c] - slopes[k][c]);
-        change = std::max(change, by * scale.time[c] * scale.unit[c]);
-      }
-      slopes[k] = slope;
-    }
-    if (change < 0x1p-53 || (change < 0x1p-44 && change >= last / 2)) {
-      for (int c = 0; c < components; ++c) {
-        for (int k = 0; k < stages; ++k) step.slopes[c][k] = slopes[k][c];
+    double change = 0;  // by this turn, all together
+    for (int c = 0; c < components; ++c) change += changes[c] * scale[c];
+    if (!(change < INFINITY)) return false;
+    // The next turn would change less than rounding, or rounding is all that changes.
+    const bool has_arrived = turn > 0 && change * (change / last) < 0x1p-53;
+    if (has_arrived || (change < 0x1p-42 && change >= last / 2)) {
+      Rows slopes;  // by degree
+      for (int k = 0; k < stages; ++k) {
+        slopes[k] = weighted(values, collocation.coefficient[k]);
+        for (int c = 0; c < components; ++c) step.slopes[c][k] = slopes[k][c];
       }
       return is_resolved(slopes, scale);
     }

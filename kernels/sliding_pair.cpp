@@ -2,30 +2,27 @@
 
 #include <cmath>
 
+#include "kernels/sliding_frame.h"
+
 namespace needlework::kernels {
 
 SlidingContact sliding_contact(const SlidingBodies& bodies, const SlidingState& state) {
   const Vec3d &u1 = state.u_first, &u2 = state.u_second, &w1 = state.w_first, &w2 = state.w_second;
-  const Vec3d x = cross(u1, u2), turn1 = cross(w1, u1), turn2 = cross(w2, u2);
-  const double square = dot(x, x);
+  const SlidingFrame frame = sliding_frame(bodies, state);
   SlidingContact out;
-  out.sin_angle = std::sqrt(square);
-  out.normal = x * (1 / out.sin_angle);
+  out.sin_angle = std::sqrt(frame.square);
+  out.normal = frame.across * (1 / out.sin_angle);
   out.gap = dot(state.r, out.normal);
-  out.arm_first = dot(cross(u2, state.r), x) / square;
-  out.arm_second = dot(cross(u1, state.r), x) / square;
-  const Vec3d relative = state.v + (turn1 * out.arm_first - turn2 * out.arm_second);
+  out.arm_first = frame.arm_first;
+  out.arm_second = frame.arm_second;
+  const Vec3d relative =
+      state.v + (frame.turn_first * out.arm_first - frame.turn_second * out.arm_second);
   out.speed = dot(relative, out.normal);
-  const double squares1 = out.arm_first * out.arm_first / bodies.first.inertia;
-  const double squares2 = out.arm_second * out.arm_second / bodies.second.inertia;
-  out.inverse = (1 / bodies.first.mass + 1 / bodies.second.mass) + (squares1 + squares2);
+  out.inverse = frame.inverse;
 
   // f'' = (f'' in free flight) + |u1 x u2| M_nn lambda.
-  const double turning = dot(w1, w1) + dot(w2, w2);
-  const double bent = 2 * dot(state.v, cross(turn1, u2) + cross(u1, turn2)) +
-                      dot(state.r, 2 * cross(turn1, turn2) - turning * x);
   const double pressed = 1 / (out.sin_angle * out.inverse);
-  out.force = -bent * pressed;
+  out.force = -frame.bent * pressed;
   const double omega1 = std::sqrt(dot(w1, w1)), omega2 = std::sqrt(dot(w2, w2));
   const double omega = omega1 + omega2;
   const double most =
