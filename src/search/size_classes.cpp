@@ -39,7 +39,8 @@ SizeClasses grouped_by_length(const Gas& gas) {
   double lengths = 0;  // sum of those in the last class
   for (const auto& [length, count] : needles_of) {
     const double added = length * static_cast<double>(count);
-    const auto fits = [&](const SizeClass& group) {
+    // Named, as clang 14 captures no structured bindings.
+    const auto fits = [&, count = count](const SizeClass& group) {
       return group.longest * static_cast<double>(group.count + count) <= most * (lengths + added);
     };
     if (out.all.empty() || !fits(out.all.back())) {
