@@ -27,7 +27,8 @@ bool is_tame(const Json& value) {
     const auto& text = value.get_ref<const std::string&>();
     return text.find('/') == text.npos && (text.find('=') == text.npos || is_tame_scene(text));
   }
-  return std::all_of(value.begin(), value.end(), is_tame);
+  // Others than arrays and objects are their own only element.
+  return !value.is_structured() || std::all_of(value.begin(), value.end(), is_tame);
 }
 
 // The same for a line. One that cannot be read, or is too deep, is the server's to refuse.
