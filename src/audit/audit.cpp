@@ -84,6 +84,12 @@ std::vector<Needle> needles_of(const State& state, const Instant& time,
   return needles;
 }
 
+InputError unexpected(Happening::Kind kind) {
+  return InputError(std::string("event of the kind ") + name_of(kind) +
+                    ": expected collisions, hits on walls, draws of a thermostat and, in a gas of "
+                    "needles that slide, contacts");
+}
+
 Instant instant_of(double time, double epoch_length) {
   const double epochs = time / epoch_length, whole = std::floor(epochs);
   return {static_cast<std::int64_t>(whole), epochs - whole};
@@ -101,7 +107,7 @@ double Findings::bound95(Kind kind) const {
   if (!is_of_collisions(kind)) return std::numeric_limits<double>::quiet_NaN();
   const bool of_all = kind == Kind::wrong_order || kind == Kind::wrong_rule;
   const std::uint64_t n =
-      hits + (of_all ? collisions : contacts + (kind == Kind::missed ? count(kind) : 0));
+      hits + ended + (of_all ? collisions : contacts + (kind == Kind::missed ? count(kind) : 0));
   if (n == 0) return std::numeric_limits<double>::quiet_NaN();
   return boost::math::gamma_q_inv(static_cast<double>(count(kind)) + 1, 0.05) /
          static_cast<double>(n);
@@ -124,6 +130,8 @@ Audit::Audit(const State& initial, const Setup& setup)
   }
   if (setup.composition.has_width()) findings_.overlaps.emplace();
   has_collided_.assign(initial.size(), false);
+  joints_.resize(initial.size());
+  meetings_.resize(initial.size());
   met_.assign(initial.size(), {});
 }
 
@@ -158,9 +166,10 @@ Instant Audit::begin_of(Index i, Index j) const {
 }
 
 // Counted from the later of both records.
-Approach Audit::approach_of(Index i, Index j) const {
+Approach Audit::approach_of(Index i, Index j, double duration) const {
   const Record &a = needles_[i].record, &b = needles_[j].record;
   const Instant begin = std::max(a.time, b.time);
+  if (setup_.sliding && (joints_[i] || joints_[j])) return chord_of(i, j, begin, duration);
   const auto age = [&](const Record& record) { return elapsed<double>(record.time, begin).middle; };
   const auto centre = [&](const Record& record) {
     return record.r + (record.v + space_.gravity * (0.5 * age(record))) * age(record);
@@ -196,6 +205,12 @@ void Audit::add(const Happening& reported) {
     case Happening::pair:
       ++findings_.collisions;
       break;
+    case Happening::contact_entered:
+    case Happening::contact_ended:
+      if (!setup_.sliding) throw unexpected(happening.kind);
+      ++(happening.kind == Happening::contact_ended ? findings_.ended : findings_.entered);
+      findings_.collisions += happening.kind == Happening::contact_entered;
+      break;
     case Happening::wall:
       ++findings_.hits;
       if (collision.second < walls_.size()) break;
@@ -205,21 +220,37 @@ void Audit::add(const Happening& reported) {
       ++findings_.draws;
       break;
     default:
-      throw InputError(std::string("event of the kind ") + name_of(happening.kind) +
-                       ": expected collisions, hits on walls and draws of a thermostat");
+      throw unexpected(happening.kind);
   }
-  if (setup_.tc_relative) windows_.advance(now, needles_);
+  settle_cuts(now);
+  check_owed(now, &happening);
+  advance_windows(now);
   last_energy_change_ = collision.energy_change;
+  std::optional<Judgement> judgement;
+  if (setup_.sliding && happening.is_collision()) {
+    judgement = judge(index_of(collision.first), index_of(collision.second), now, happening);
+  }
   if (!resumed_) {
     check_order(now, happening);
-    happening.is_collision() ? check_pair(now, collision) : check_single(now, happening);
+    if (happening.is_collision()) {
+      check_pair(now, collision, judgement);
+    } else if (happening.kind == Happening::contact_ended) {
+      check_contact_end(now, collision);
+    } else {
+      check_single(now, happening);
+    }
   }
-  follow(now, happening);
+  follow(now, happening, judgement);
   if (!resumed_ && happening.is_collision() && findings_.overlaps) {
     const Index a = index_of(collision.first), b = index_of(collision.second);
     if (is_chosen(a, b)) measure_overlap(a, b);
   }
   go_on_if_resumed();
+}
+
+void Audit::advance_windows(const Instant& now) {
+  if (!setup_.tc_relative && !setup_.sliding) return;
+  windows_.advance(now, [&](const Instant& end) { return present(end); });
 }
 
 void Audit::note_in_fingerprint(std::uint64_t word) { fingerprint_ = mixed(fingerprint_ ^ word); }
@@ -249,7 +280,7 @@ void Audit::add_kick(const State& after) {
   ++findings_.kicks;
   note_in_fingerprint(static_cast<std::uint64_t>(now.epoch));
   note_in_fingerprint(std::bit_cast<std::uint64_t>(now.offset));
-  if (setup_.tc_relative) windows_.advance(now, needles_);
+  advance_windows(now);
   std::vector<Needle> kicked = needles_of(after, now, bodies_, setup_.epoch_length, unit_);
   const double before = energy();
   if (!resumed_) check_kick(now, kicked);
@@ -302,10 +333,13 @@ void Audit::check_partners(Index mine, Index besides, const Instant& now) {
   }
 }
 
-void Audit::check_pair(const Instant& now, const Collision& collision) {
+void Audit::check_pair(const Instant& now, const Collision& collision,
+                       const std::optional<Judgement>& judgement) {
   const Index a = index_of(collision.first), b = index_of(collision.second);
   if (now < needles_[a].record.time || now < needles_[b].record.time) return;
-  check_rule(a, b, now, collision);
+  check_rule(a, b, now, collision, judgement);
+  if (joint_of(a, b)) report(Kind::spurious, a, b, now);  // which f = 0 leaves open
+  for (const Index i : {a, b}) check_held(i, now);
   check_partners(a, b, now);
   check_partners(b, a, now);
   for (const Index i : {a, b}) check_walls(i, now, nullptr);
@@ -318,9 +352,10 @@ void Audit::check_single(const Instant& now, const Happening& happening) {
   if (now < needles_[i].record.time) return;
   if (happening.kind == Happening::wall) {
     check_hit(i, now, event);
-  } else if (excess_over_flight(needles_[i], space_.gravity, now, event.after[0], space_) > 1) {
+  } else if (excess_over_flight(present(i, now), space_.gravity, now, event.after[0], space_) > 1) {
     report(Kind::wrong_rule, i, i, now);
   }
+  check_held(i, now);
   check_partners(i, i, now);
   check_walls(i, now, happening.kind == Happening::wall ? &event : nullptr);
 }
@@ -366,18 +401,27 @@ void Audit::check_walls(Index i, const Instant& now, const Collision* hit) {
   }
 }
 
-void Audit::follow(const Instant& now, const Happening& happening) {
+void Audit::follow(const Instant& now, const Happening& happening,
+                   const std::optional<Judgement>& judgement) {
   const Collision& event = happening.event;
+  const bool ends = happening.kind == Happening::contact_ended;
+  if (ends) follow_contact_end(now, event);
   const int needles = happening.has_two_needles() ? 2 : 1;
-  for (int i = 0; i < needles; ++i) {
+  for (int i = 0; i < needles && !ends; ++i) {
     const Index index = index_of(i == 0 ? event.first : event.second);
     const StateAfterCollision& after = event.after[static_cast<std::size_t>(i)];
+    if (setup_.sliding) cut_contact(index, now);
     needles_[index] = Needle(Record{now, vector(after.position), vector(after.velocity),
                                     vector(after.orientation), vector(after.angular_velocity)},
                              needles_[index].body);
     if (happening.kind == Happening::thermostat) continue;  // which does not count for t_c
     has_collided_[index] = true;
     met_[index] = now;
+  }
+  if (judgement) {
+    note_meeting(index_of(event.first), index_of(event.second), now, judgement->crowded);
+    owed_.reset();
+    if (happening.kind == Happening::contact_entered) enter_contact(now, event);
   }
   last_ = {now,
            {happening.source, event.first, happening.has_two_needles() ? event.second : event.first,
@@ -393,9 +437,12 @@ bool Audit::finish(double time, const std::function<bool()>& stop) {
   const Instant end = instant_of(time, setup_.epoch_length);
   Checkpoint before = checkpoint();
   bool stopped = false;
+  settle_cuts(end, true);
+  check_owed(end, nullptr);
   slack_ = 0x1p-51 * time / setup_.epoch_length;
   for (Index i = 0; i < needles_.size() && !stopped; ++i) {
     check_walls(i, end, nullptr);
+    if (joints_[i] && joints_[i]->first == i) check_held(i, end);
     for (Index j = i + 1; j < needles_.size() && !stopped; ++j) {
       stopped = stop && stop();
       if (!stopped) check_flight(i, j, end);
@@ -431,11 +478,13 @@ void Audit::check_order(const Instant& now, const Happening& happening) {
   }
 }
 
-void Audit::check_rule(Index a, Index b, const Instant& now, const Collision& collision) {
+void Audit::check_rule(Index a, Index b, const Instant& now, const Collision& collision,
+                       const std::optional<Judgement>& judgement) {
   const Restitution& of_pair =
       setup_.composition.restitution(needles_[a].body.species, needles_[b].body.species);
-  const double excess = excess_over_rule(needles_[a], needles_[b], now, collision,
-                                         {of_pair.epsilon, of_pair.beta}, space_);
+  const double excess = judgement ? judgement->excess
+                                  : excess_over_rule(needles_[a], needles_[b], now, collision,
+                                                     {of_pair.epsilon, of_pair.beta}, space_);
   const bool by_contact_time = collision.contact_time_rule;
   const double time = since_start(now) * setup_.epoch_length;
   if (excess > 1 || by_contact_time != contact_time_is_due(a, b, now, by_contact_time) ||

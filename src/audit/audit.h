@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -18,6 +19,7 @@
 #include "needlework/simulation.h"
 #include "src/audit/contact_finder.h"
 #include "src/audit/encounters.h"
+#include "src/audit/joint_motion.h"
 #include "src/audit/kicks.h"
 #include "src/audit/pair_flight.h"
 #include "src/audit/rod_flight.h"
@@ -60,6 +62,8 @@ struct Findings {
   std::uint64_t hits = 0;        ///< hits on walls received; the same
   std::uint64_t draws = 0;       ///< events of a thermostat received; their rule is not checked
   std::uint64_t kicks = 0;       ///< of all needles; the rule is checked for each needle
+  std::uint64_t entered = 0;     ///< collisions that began a sliding contact
+  std::uint64_t ended = 0;       ///< ends of sliding contacts received
   std::uint64_t at_walls = 0;    ///< flights of a needle that are checked against all walls
   std::uint64_t contacts = 0;    ///< collisions between pairs that are checked
   std::uint64_t checked = 0;     ///< flights of a pair, from a collision of either needle to the
@@ -70,7 +74,7 @@ struct Findings {
   std::array<std::uint64_t, kinds.size()> differences{};
   std::vector<Difference> listed;  ///< the first differences
 
-  std::uint64_t events() const { return collisions + hits + draws + kicks; }
+  std::uint64_t events() const { return collisions + hits + draws + kicks + ended; }
   std::uint64_t count(Kind kind) const { return differences[static_cast<std::size_t>(kind)]; }
   bool clean() const { return differences == std::array<std::uint64_t, kinds.size()>{}; }
   /// Upper limit, with 95 % confidence, on the fraction of collisions and hits that differ in this
@@ -92,11 +96,25 @@ struct Checkpoint {
   std::unordered_map<std::uint64_t, Continuation> continuations;
 };
 
+/// How needles that bounce ever faster stay in contact.
+struct Sliding {
+  double below = 1e-3;           ///< in flights shorter than this, in present mean free times
+  bool elastic_strikes = false;  ///< whether strikes are done with epsilon = 1
+};
+
+/// Of a scene; empty if needles do not slide.
+inline std::optional<Sliding> sliding_of(const Scene& scene) {
+  const Scene::Collisions& collisions = scene.collisions;
+  if (!collisions.sliding) return std::nullopt;
+  return Sliding{collisions.sliding_below, collisions.elastic_strikes};
+}
+
 struct Setup {
   double epoch_length = 1;            ///< unit of the collisions' times, a power of two
   Composition composition;            ///< with the counts of the state
   std::optional<double> tc;           ///< absolute contact time
   std::optional<double> tc_relative;  ///< the same in present mean free times
+  std::optional<Sliding> sliding;     ///< not together with walls and kicks
   std::vector<Scene::Wall> walls = {};
   std::array<double, 3> gravity{};  ///< [L / time^2]
   Scene::Driving driving = {};
@@ -145,6 +163,33 @@ class Audit {
  private:
   using Index = std::uint32_t;  // of needles, in order of id
 
+  // A contact of two needles that slide on each other.
+  struct Joint {
+    Index first, second;  // in ascending order
+    Instant begin;
+    JointMotion motion;
+    Index other(Index i) const { return i == first ? second : first; }
+    int index(Index i) const { return i == first ? 0 : 1; }
+  };
+  // A contact of which one needle has been struck: at the same instant the two collide or part, or
+  // they stay in contact.
+  struct Cut {
+    std::shared_ptr<Joint> joint;
+    Instant time;
+  };
+  // When a needle has touched others.
+  struct Meeting {
+    std::optional<Index> last;                 // the latest partner
+    std::optional<Instant> with_last, others;  // the latest times with it, and with any other
+    int in_crowd = 0;                          // collisions soon after one with a third, in a row
+  };
+  enum class Answer { no, yes, open };
+  // What a collision of needles that may slide should have been.
+  struct Judgement {
+    double excess = 0;     // over the rule
+    bool crowded = false;  // soon after a collision of one of the two with a third
+  };
+
   // The motion of two needles since the later of their records, for one encounter.
   struct Flown {
     Index first, second;  // in ascending order
@@ -162,35 +207,67 @@ class Audit {
   bool is_chosen(Index i, Index j) const;
   double since_start(const Instant& time) const;
   Instant begin_of(Index i, Index j) const;  ///< the later of the times of both records
-  Approach approach_of(Index i, Index j) const;
+  /// For a flight that lasts so long.
+  Approach approach_of(Index i, Index j, double duration) const;
   Shift nearest_image(const Approach& approach, double s) const;  ///< at this time of a flight
   void check_order(const Instant& now, const Happening& happening);
-  void check_pair(const Instant& now, const Collision& collision);
+  void check_pair(const Instant& now, const Collision& collision,
+                  const std::optional<Judgement>& judgement);
   void check_kick(const Instant& now, const std::vector<Needle>& after);
   void go_on_if_resumed();
   void note_in_fingerprint(std::uint64_t word);
+  void advance_windows(const Instant& now);
   void check_single(const Instant& now, const Happening& happening);
   void check_hit(Index i, const Instant& now, const Collision& hit);
   void check_walls(Index i, const Instant& now, const Collision* hit);
   void check_partners(Index mine, Index besides, const Instant& now);
-  void check_rule(Index a, Index b, const Instant& now, const Collision& collision);
+  void check_rule(Index a, Index b, const Instant& now, const Collision& collision,
+                  const std::optional<Judgement>& judgement);
+  const Joint* joint_of(Index i, Index j) const;
+  Approach chord_of(Index i, Index j, const Instant& begin, double duration) const;
+  Needle present(Index i, const Instant& now) const;
+  std::vector<Needle> present(const Instant& now) const;
+  Vector<double> nearest_separation(const Needle& a, const Needle& b) const;
+  Judgement judge(Index a, Index b, const Instant& now, const Happening& happening) const;
+  Answer is_crowded(Index a, Index b, const Instant& now) const;
+  bool is_strike(Index a, Index b, const Instant& now) const;
+  Answer may_enter(const RelativeState& before, const std::array<Body, 2>& bodies, int side,
+                   double epsilon) const;
+  std::optional<double> threshold() const;
+  void note_meeting(Index a, Index b, const Instant& now, bool crowded);
+  void settle_cuts(const Instant& now, bool at_end = false);
+  void check_owed(const Instant& now, const Happening* happening);
+  void go_on_sliding(const Cut& cut);
+  void check_held(Index i, const Instant& now);
+  void check_contact_end(const Instant& now, const Collision& event);
+  void check_end_time(const Joint& joint, const Instant& now);
+  void follow_contact_end(const Instant& now, const Collision& event);
+  void cut_contact(Index i, const Instant& now);
+  void enter_contact(const Instant& now, const Collision& event);
+  double excess_over_contact(const Joint& joint, const Instant& now, const Collision& event) const;
+  int side_after_end(Joint& joint, const Instant& now) const;
   bool follows_windows() const;
   bool contact_time_is_due(Index a, Index b, const Instant& now, bool reported) const;
   void check_flight(Index i, Index j, const Instant& now);
   void check_contact(Index a, Index b, const Instant& now);
   void go_on_from_contact(Index i, Index j, const Instant& now);
+  /// Calls check(motion) with the motion of both.
+  template <class Check>
+  void with_motion(const Flown& flown, const Check& check) const;
   void check_apart(const Flown& flown);
+  void check_apart(const Flown& flown, PairMotion& pair);
   void check_touching(const Flown& flown);
+  void check_touching(const Flown& flown, PairMotion& pair);
   std::optional<Continuation> take_continuation(Index i, Index j);
   void keep_continuation(const Flown& flown, const Start& start);
-  void settle(const PairFlight& pair, bool undecided);
+  void settle(const PairMotion& pair, bool undecided);
   void check_rods_apart(const Flown& flown);
   void check_rods_touching(const Flown& flown);
   double after_overlap(const Flown& flown, RodFlight& pair) const;
   void keep_if_overlapping(const Flown& flown, RodFlight& pair);
   void measure_overlap(Index a, Index b);
   void settle(const RodFlight& pair);
-  double tolerance(PairFlight& pair, double s) const;
+  double tolerance(PairMotion& pair, double s) const;
   /// How far rounding may move a tip into a wall. [L]
   double tip_tolerance() const { return space_.continued(); }
   void report(Kind kind, Index i, Index j, const Instant& begin, double s = 0);
@@ -200,7 +277,8 @@ class Audit {
   bool is_at_rest() const;
   bool is_inside(const Needle& needle) const;
   void report_at_wall(Kind kind, Index i, std::size_t wall, const Instant& begin, double s);
-  void follow(const Instant& now, const Happening& happening);
+  void follow(const Instant& now, const Happening& happening,
+              const std::optional<Judgement>& judgement);
   double energy() const;
 
   Setup setup_;
@@ -221,6 +299,10 @@ class Audit {
   Findings findings_;
   std::uint64_t fingerprint_ = 0;
   std::optional<Checkpoint> resumed_;
+  std::vector<std::shared_ptr<Joint>> joints_;  ///< of each needle; null if it flies freely
+  std::vector<Cut> cuts_;
+  std::vector<Meeting> meetings_;
+  std::optional<std::pair<Index, Index>> owed_;  ///< that must collide now, as a contact is cut
   double slack_ = 0;  ///< uncertainty of the end time of the run [epochs]
 };
 

@@ -68,7 +68,7 @@ int ContactFinder::on_needles(double begin, double end) {
   // Both margins are at least those at the ends, less the bound on their change in between.
   const auto inside = [&](double s, const Sample& e) {
     const double reach = e.distance + 2 * v * half;
-    const double bent = 0.5 * w * (2 * w + 4 * v + 4 * reach * w) * half * half * enlarged;
+    const double bent = 0.5 * pair_.margin_bend(reach) * half * half * enlarged;
     const double least = bent + pair_.margin_limit(e, s);
     return e.margin[0] > least + e.margin_error[0] && e.margin[1] > least + e.margin_error[1];
   };

@@ -24,7 +24,7 @@ struct ContactInterval {
 
 class ContactFinder {
  public:
-  explicit ContactFinder(PairFlight& pair) : pair_(pair) {}
+  explicit ContactFinder(PairMotion& pair) : pair_(pair) {}
 
   /// The first contact, certain or possible, in [from, to]. A pair that starts touching is examined
   /// from 0 on.
@@ -53,7 +53,7 @@ class ContactFinder {
   std::optional<ContactInterval> cross(const Stretch& stretch, int side);
   double cut(const Stretch& stretch);
 
-  PairFlight& pair_;
+  PairMotion& pair_;
   std::vector<Stretch> stretches_;
   int looked_at_ = 0;
 };

@@ -12,6 +12,7 @@ namespace needlework::audit {
 /// errors are far smaller than the margin of the reach.
 struct Approach {
   Vector<double> r, v;
+  double bow = 0;  ///< by how much they may depart from that between the ends of the flight [L]
 };
 
 /// r12 at time s for this image.

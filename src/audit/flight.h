@@ -54,6 +54,7 @@ struct Flight {
   }
 
   Pose<T> at(const T& t) const {
+    using std::cos, std::sin;
     const T angle = omega * t;
     const T cosine = cos(angle), sine = sin(angle);
     return {r + v * t, u * cosine + side * sine, (side * cosine - u * sine) * omega};

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "src/audit/audit.h"
+#include "src/audit/guided_flight.h"
 #include "src/audit/tolerances.h"
 
 namespace needlework::audit {
@@ -45,10 +46,12 @@ void Audit::check_flight(Index i, Index j, const Instant& now) {
   const double duration = elapsed<double>(begin_of(i, j), now).middle;
   if (!(duration > 0)) return;
   ++findings_.checked;
-  const Approach approach = approach_of(i, j);
+  if (joint_of(i, j))
+    return;  // other images are out of reach, as boxes are longer than two lengths
+  const Approach approach = approach_of(i, j, duration);
   std::optional<Continuation> continuation;
   if (!continuations_.empty()) continuation = take_continuation(i, j);
-  const double reach = reach_of(needles_[i].body, needles_[j].body);
+  const double reach = reach_of(needles_[i].body, needles_[j].body) + approach.bow;
   for_each_encounter(approach, reach, duration, space_, [&](const Encounter& encounter) {
     check_apart({i, j, approach, encounter, duration,
                  start_of(separation(approach, 0, encounter.shift, space_.box), continuation)});
@@ -70,10 +73,10 @@ void Audit::check_contact(Index a, Index b, const Instant& now) {
   ++findings_.checked;
   ++findings_.contacts;
   const double duration = elapsed<double>(begin_of(a, b), now).middle;
-  const Approach approach = approach_of(a, b);
+  const Approach approach = approach_of(a, b, duration);
   const Shift nearest = nearest_image(approach, duration);
   const std::optional<Continuation> continuation = take_continuation(a, b);
-  const double reach = reach_of(needles_[a].body, needles_[b].body);
+  const double reach = reach_of(needles_[a].body, needles_[b].body) + approach.bow;
   bool met = false;
   for_each_encounter(approach, reach, duration, space_, [&](const Encounter& encounter) {
     const Flown flown{
@@ -91,7 +94,7 @@ void Audit::check_contact(Index a, Index b, const Instant& now) {
 }
 
 // Uncertainty of the time of a contact at s.
-double Audit::tolerance(PairFlight& pair, double s) const {
+double Audit::tolerance(PairMotion& pair, double s) const {
   const Sample sample = pair.precise(s);
   return 4 * pair.limit(sample, s) / std::abs(sample.df) + relative_tolerance * std::abs(s) +
          2 * resolution + slack_;
@@ -102,17 +105,39 @@ void Audit::keep_continuation(const Flown& flown, const Start& start) {
       separation(flown.approach, flown.duration, flown.encounter.shift, space_.box), start};
 }
 
-void Audit::settle(const PairFlight& pair, bool undecided) {
+void Audit::settle(const PairMotion& pair, bool undecided) {
   findings_.escalated += pair.needed_quad();
   findings_.undecided += undecided;
 }
 
+template <class Check>
+void Audit::with_motion(const Flown& flown, const Check& check) const {
+  const Needle &first = needles_[flown.first], &second = needles_[flown.second];
+  const Shift& shift = flown.encounter.shift;
+  if (setup_.sliding && (joints_[flown.first] || joints_[flown.second])) {
+    const Instant begin = begin_of(flown.first, flown.second);
+    const auto guide = [&](Index i) {
+      const double delay = elapsed<double>(needles_[i].record.time, begin).middle;
+      Joint* joint = joints_[i].get();
+      return joint ? Guide{needles_[i], &joint->motion, joint->index(i), delay}
+                   : Guide{needles_[i], nullptr, 0, delay};
+    };
+    GuidedFlight pair(guide(flown.first), guide(flown.second), shift, space_, flown.start,
+                      flown.duration);
+    return check(pair);
+  }
+  PairFlight pair(first, second, shift, space_, flown.start);
+  check(pair);
+}
+
 void Audit::check_apart(const Flown& flown) {
   if (setup_.composition.has_width()) return check_rods_apart(flown);
+  with_motion(flown, [&](PairMotion& pair) { check_apart(flown, pair); });
+}
+
+void Audit::check_apart(const Flown& flown, PairMotion& pair) {
   const double duration = flown.duration, last = flown.encounter.end;
   const bool to_the_end = last >= duration;
-  PairFlight pair(needles_[flown.first], needles_[flown.second], flown.encounter.shift, space_,
-                  flown.start);
   if (!(pair.rate() > 0)) return;
   ContactFinder finder(pair);
   bool undecided = false;
@@ -146,10 +171,12 @@ void Audit::check_apart(const Flown& flown) {
 
 void Audit::check_touching(const Flown& flown) {
   if (setup_.composition.has_width()) return check_rods_touching(flown);
+  with_motion(flown, [&](PairMotion& pair) { check_touching(flown, pair); });
+}
+
+void Audit::check_touching(const Flown& flown, PairMotion& pair) {
   const double duration = flown.duration;
   const Start& start = flown.start;
-  PairFlight pair(needles_[flown.first], needles_[flown.second], flown.encounter.shift, space_,
-                  start);
   ContactFinder finder(pair);
   const double off = tolerance(pair, duration), begin = duration - off, end = duration + off;
   bool undecided = !(off * pair.rate() < 0.25);

@@ -53,13 +53,11 @@ Sample evaluate(const Flight<Ball<Real>>& first, const Flight<Ball<Real>>& secon
 
 PairFlight::PairFlight(const Needle& first, const Needle& second, const Shift& shift,
                        const Space& space, const Start& start)
-    : first_(first),
+    : PairMotion(first.body, second.body, space, start),
+      first_(first),
       second_(second),
       flights_{first.flight, second.flight},
-      shift_{{double(shift[0]), double(shift[1]), double(shift[2])}},
-      space_(space),
-      start_(start),
-      half_lengths_{first.body.length / 2, second.body.length / 2} {
+      shift_{{double(shift[0]), double(shift[1]), double(shift[2])}} {
   const Instant begin = std::max(first.record.time, second.record.time);
   delay_ = {elapsed<double>(first.record.time, begin), elapsed<double>(second.record.time, begin)};
   for (std::size_t i = 0; i < 2; ++i) {
@@ -183,7 +181,7 @@ double PairFlight::limit(const Sample& sample, double s, double half) const {
   return sum;
 }
 
-bool PairFlight::is_near_contact(double s) const {
+bool PairMotion::is_near_contact(double s) const {
   const Sample e = sample(s);
   const double least = -beside * size() * e.sine;
   return std::abs(e.f) <= space_.continued() && e.margin[0] >= least && e.margin[1] >= least;

@@ -35,6 +35,9 @@ struct Needle {
   Record record;
   Flight<Ball<double>> flight;
   Body body;
+  /// By so many lengths and radians of flight the record is as uncertain, if the audit has computed
+  /// it itself.
+  double worn = 0;
 };
 
 /// The start of a pair's flight: apart, or touching with a side known from previous flights.
@@ -99,27 +102,32 @@ struct Sample {
   std::array<double, 2> margin, margin_error;
 };
 
-/// Times s are counted from the later of both records.
-class PairFlight {
+/// Two needles and one periodic image, as the contact finder looks at them. Times s are counted
+/// from the later of both records.
+class PairMotion {
  public:
-  PairFlight(const Needle& first, const Needle& second, const Shift& shift, const Space& space,
-             const Start& start);
+  virtual ~PairMotion() = default;
 
   /// Values in double; use `precise` if their errors are too large.
-  Sample sample(double s) const;
-  Sample precise(double s);
-  bool needed_quad() const { return precise_.has_value(); }
+  virtual Sample sample(double s) const = 0;
+  virtual Sample precise(double s) = 0;
+  virtual bool needed_quad() const = 0;
 
-  double speed() const { return speed_; }  ///< lower bound on |v12|.
-  double spin() const { return spin_; }    ///< lower bound on |w1| + |w2|.
+  double speed() const { return speed_; }  ///< upper bound on |v12|.
+  double spin() const { return spin_; }    ///< upper bound on |w1| + |w2|.
   /// Of changes of the pair. [1 / time]
-  double rate() const { return speed_ / size() + spin_; }
+  double rate() const { return speed_ / size() + spin_ + hurry_; }
   double half_length(int i) const { return half_lengths_[i]; }         ///< of either needle [L]
   double size() const { return half_lengths_[0] + half_lengths_[1]; }  ///< mean length [L]
   /// Bound on |f''| from `begin` to `end`, where |r12| is at most `distance`. [L / time^2]
-  double bend(double begin, double end, double distance) const;
-  /// Improves that bound for needles that are nearly in one plane; uses 113 bits.
-  void find_coefficients();
+  virtual double bend(double begin, double end, double distance) const = 0;
+  /// The same of the `margin`s of a sample.
+  double margin_bend(double distance) const {
+    return spin_ * (2 * spin_ + 4 * speed_ + 4 * distance * spin_) +
+           (turned_faster_ * (1 + 2 * distance) + acceleration_);
+  }
+  /// Improves the bound on |f''| for needles that are nearly in one plane; uses 113 bits.
+  virtual void find_coefficients() {}
   /// Bound on the rates of change of `moment` i and of |r12|, where |r12| is at most `distance`.
   /// [L / time]
   double moment_rate(int i, double distance) const { return speed_ + omega_[1 - i] * distance; }
@@ -127,12 +135,39 @@ class PairFlight {
   /// The condition limit: the uncertainty of f within `half` of the time of the sample, if each
   /// number of the records, with relative positions, may be off by half a unit, and f is computed
   /// in double. [L]
-  double limit(const Sample& sample, double s, double half = 0) const;
+  virtual double limit(const Sample& sample, double s, double half = 0) const = 0;
   /// The same for `margin`.
-  double margin_limit(const Sample& sample, double s) const;
+  virtual double margin_limit(const Sample& sample, double s) const = 0;
   /// Whether the value of f at s is continued into a flight that starts there.
   bool is_near_contact(double s) const;
   const Start& start() const { return start_; }
+
+ protected:
+  PairMotion(const Body& first, const Body& second, const Space& space, const Start& start)
+      : space_(space), start_(start), half_lengths_{first.length / 2, second.length / 2} {}
+
+  Space space_;
+  Start start_;
+  std::array<double, 2> half_lengths_;
+  std::array<double, 2> omega_{};  ///< bounds on both |w|
+  double speed_ = 0, spin_ = 0;
+  /// Bounds on |v12'| and |w1'| + |w2'|, which are 0 in free flight, and what they add to the rate.
+  double acceleration_ = 0, turned_faster_ = 0, hurry_ = 0;
+};
+
+/// Both needles fly freely.
+class PairFlight final : public PairMotion {
+ public:
+  PairFlight(const Needle& first, const Needle& second, const Shift& shift, const Space& space,
+             const Start& start);
+
+  Sample sample(double s) const override;
+  Sample precise(double s) override;
+  bool needed_quad() const override { return precise_.has_value(); }
+  double bend(double begin, double end, double distance) const override;
+  void find_coefficients() override;
+  double limit(const Sample& sample, double s, double half = 0) const override;
+  double margin_limit(const Sample& sample, double s) const override;
 
  private:
   struct Uncertainty {
@@ -153,11 +188,8 @@ class PairFlight {
   /// Of both, as if they flew freely: gravity moves both alike from s = 0 on.
   std::array<Flight<Ball<double>>, 2> flights_;
   Vector<double> shift_;
-  Space space_;
-  Start start_;
   std::array<Ball<double>, 2> delay_;  ///< time from each record to s = 0
-  std::array<double, 2> omega_, velocity_, half_lengths_;
-  double speed_ = 0, spin_ = 0;
+  std::array<double, 2> velocity_;
   double distance_ = 0;  ///< lower bound on |r12| at s = 0
   double offset_ = 0;    ///< correction of f(0) to its value in the previous flight
   double slope_ = 0;     ///< f'(0) of a pair that has just collided and, by rounding, approaches

@@ -30,7 +30,7 @@ void Audit::keep_if_overlapping(const Flown& flown, RodFlight& pair) {
 // Of two rods whose records, of the same time, are those after their collision: rounding them may
 // have moved one into the other.
 void Audit::measure_overlap(Index a, Index b) {
-  const RodFlight pair(needles_[a], needles_[b], nearest_image(approach_of(a, b), 0), space_);
+  const RodFlight pair(needles_[a], needles_[b], nearest_image(approach_of(a, b, 0), 0), space_);
   double& most = findings_.overlaps->at_collisions;
   most = std::max(most, pair.overlap_at(0));
 }

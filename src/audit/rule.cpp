@@ -38,6 +38,8 @@ struct Partner {
   double flown;                           ///< distance since its record
   double fastest;                         ///< bound on its speed since then
   double age_in_lengths, age_in_radians;  ///< the same in lengths, and angle turned
+  double turned;                          ///< as many radians make directors as uncertain
+  bool worn;                              ///< in contact, of which each step makes a new record
 
   Partner(const Needle& needle, const Instant& now, const Vector<double>& gravity) {
     const Flight<Number> flight(needle.record);
@@ -57,8 +59,13 @@ struct Partner {
             norm(gravity) * magnitude(Quad(age.middle * age.middle));
     age_in_lengths = flown / needle.body.extent();
     age_in_radians = magnitude(Quad(flight.omega.middle * age.middle));
+    turned = age_in_radians + needle.worn;
+    worn = needle.worn > 0;
+    flown += needle.worn * needle.body.extent();
   }
-  bool may_be_renewed() const { return std::max(age_in_lengths, age_in_radians) > longest_record; }
+  bool may_be_renewed() const {
+    return worn || std::max(age_in_lengths, age_in_radians) > longest_record;
+  }
 };
 
 /// Where two needles touch. The arms of needles, and all normals, are off by what rounding does.
@@ -120,8 +127,7 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
   const std::array<Body, 2> bodies = {first.body, second.body};
   const bool wide = first.body.diameter > 0;
   constexpr double unit = 0x1p-53;
-  const double flexible =
-      8 * unit * (2 + a.flown + b.flown + (a.age_in_radians + b.age_in_radians));
+  const double flexible = 8 * unit * (2 + a.flown + b.flown + (a.turned + b.turned));
   const double off_by_renewal = renewed ? space.rounding() : 0;
   Excess excess;
   const Contact contact =
@@ -163,6 +169,8 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
 
   const double speed = a.fastest + b.fastest +
                        magnitude(Quad(norm(a.w) * bodies[0].length + norm(b.w) * bodies[1].length));
+  const bool hardly_parts = magnitude(Quad(epsilon * vn)) < rule.parting * speed;
+  const double share_after = share + (hardly_parts ? 4 * rule.parting : 0);
   // Twice the ratio of the largest and the smallest M, which has its tips.
   const auto at_tip = [&](int i) {
     return bodies[i].length > 0 ? bodies[i].k / 2 * magnitude(inverse_mass[i]) : 0.0;
@@ -195,14 +203,14 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
       moved[axis] -= Quad(space.box[axis]) * space.boxes_along<Quad>(axis, moved[axis]);
     }
     excess.add(difference(moved, {}), space.rounding() + 8 * unit * before.flown);
-    excess.add(difference(before.u, after.orientation), 8 * unit * (2 + before.age_in_radians));
+    excess.add(difference(before.u, after.orientation), 8 * unit * (2 + before.turned));
     // The velocity itself is rounded, too, however heavy the needle is.
     const double kicked = std::max(1.0, push * magnitude(inverse_mass[i]));
-    excess.add(difference(v_after[i], after.velocity), kicked * stiffness * share * speed);
+    excess.add(difference(v_after[i], after.velocity), kicked * stiffness * share_after * speed);
     const Body& body = bodies[i];
     const double turning = body.length > 0 ? body.k / body.length : 0;
     excess.add(difference(w_after[i], after.angular_velocity),
-               (2 / body.extent() + turning) * kicked * stiffness * share * speed);
+               (2 / body.extent() + turning) * kicked * stiffness * share_after * speed);
   }
   return excess.most();
 }

@@ -9,6 +9,9 @@ namespace needlework::audit {
 /// Parameters of the collision rule.
 struct Rule {
   double epsilon = 1, beta = -1;
+  /// Where the needles part more slowly than at this fraction of their speeds, by which rounding
+  /// could decide on the side, they may do so faster by up to four times that.
+  double parting = 0;
 };
 
 /// Largest difference of a reported collision and of the records after it from the rule, in units

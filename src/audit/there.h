@@ -24,8 +24,9 @@ struct There {
       u[axis] = pose.u[axis].middle;
       w[axis] = spin[axis].middle;
     }
-    flown = magnitude(Quad(norm(v) * t)) + norm(gravity) * magnitude(t) * magnitude(t);
-    turned = magnitude(Quad(flight.omega.middle * t));
+    flown = magnitude(Quad(norm(v) * t)) + norm(gravity) * magnitude(t) * magnitude(t) +
+            needle.worn * needle.body.extent();
+    turned = magnitude(Quad(flight.omega.middle * t)) + needle.worn;
   }
 };
 

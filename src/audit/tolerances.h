@@ -11,5 +11,8 @@ inline constexpr double early_reach = 0x1p-10;
 /// Needles that touch, to within rounding, for longer than this fraction of that time may have
 /// passed through each other.
 inline constexpr double longest_touch = 0x1p-10;
+/// By what the motion of needles in contact may differ from that of the engine, of lengths, angles
+/// and relative velocities: what its steps leave over.
+inline constexpr double contact_noise = 0x1p-43;
 
 }  // namespace needlework::audit

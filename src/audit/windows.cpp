@@ -151,8 +151,4 @@ void Windows::open(const Instant& now, std::span<const Needle> needles) {
   end_ = later(now, span);
 }
 
-void Windows::advance(const Instant& now, std::span<const Needle> needles) {
-  while (certain_ && end_ <= now) open(end_, needles);
-}
-
 }  // namespace needlework::audit

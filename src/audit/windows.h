@@ -44,8 +44,12 @@ class Windows {
   Windows(std::span<const Needle> needles, std::vector<Body> bodies, double volume,
           double between_kicks);
 
-  /// Opens windows until the present one ends after `now`. The needles move as given until then.
-  void advance(const Instant& now, std::span<const Needle> needles);
+  /// Opens windows until the present one ends after `now`. `needles_at(time)` gives the needles as
+  /// they move then.
+  template <class NeedlesAt>
+  void advance(const Instant& now, const NeedlesAt& needles_at) {
+    while (certain_ && end_ <= now) open(end_, needles_at(end_));
+  }
 
   /// Opens a window now, as the needles have been kicked.
   void begin_again(const Instant& now, std::span<const Needle> needles) {

@@ -39,6 +39,8 @@ Json checkpoint_json(const audit::Checkpoint& checkpoint) {
           {"hits", findings.hits},
           {"draws", findings.draws},
           {"kicks", findings.kicks},
+          {"entered", findings.entered},
+          {"ended", findings.ended},
           {"at_walls", findings.at_walls},
           {"contacts", findings.contacts},
           {"checked", findings.checked},
@@ -54,14 +56,16 @@ audit::Checkpoint checkpoint_of(const Json& from) {
   audit::Checkpoint out;
   out.fingerprint = std::stoull(from.at("fingerprint").get<std::string>());
   audit::Findings& findings = out.findings;
-  for (const char* key : {"collisions", "hits", "draws", "kicks", "at_walls", "contacts", "checked",
-                          "escalated", "undecided"}) {
+  for (const char* key : {"collisions", "hits", "draws", "kicks", "entered", "ended", "at_walls",
+                          "contacts", "checked", "escalated", "undecided"}) {
     if (!from.at(key).is_number_unsigned()) throw std::out_of_range(key);
   }
   from.at("collisions").get_to(findings.collisions);
   from.at("hits").get_to(findings.hits);
   from.at("draws").get_to(findings.draws);
   from.at("kicks").get_to(findings.kicks);
+  from.at("entered").get_to(findings.entered);
+  from.at("ended").get_to(findings.ended);
   from.at("at_walls").get_to(findings.at_walls);
   from.at("contacts").get_to(findings.contacts);
   from.at("checked").get_to(findings.checked);

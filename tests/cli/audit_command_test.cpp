@@ -21,6 +21,16 @@ tc_relative = 1e-3
 [until]
 collisions_per_needle = 60
 )");
+    write("sliding.toml", R"(
+[needles]
+count = 120
+box = 5
+[collisions]
+epsilon = 0.5
+sliding = true
+[until]
+collisions_per_needle = 8
+)");
   }
 
   // The first piece ends soon after the program has begun to listen to signals. Each is twice as
@@ -91,6 +101,27 @@ TEST_F(AuditCommand, SaysByHowMuchRodsOverlap) {
       << text.out;
 }
 
+TEST_F(AuditCommand, ChecksNeedlesThatSlideButNotBesideWallsAndKicks) {
+  const std::string sliding = "audit sliding.toml";
+  const Outcome outcome = run(sliding + " --json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json result = outcome.json();
+  EXPECT_GT(result["contacts_entered"], 5);
+  EXPECT_GE(result["contacts_entered"], result["contacts_ended"]);
+  EXPECT_NE(run(sliding).out.find("sliding contacts checked"), std::string::npos);
+  write("between_walls.toml",
+        "needles = { count = 20, box = 5 }\ncollisions = { epsilon = 0.5, sliding = true }\n"
+        "until.time = 1\nwalls = [{ axis = \"z\", side = \"both\" }]\n");
+  for (const std::string& scene :
+       {sliding + " --set driving.kicks.every=0.1 --set driving.kicks.translational=1",
+        std::string("audit between_walls.toml")}) {
+    const Outcome refused = run(scene);
+    EXPECT_EQ(refused.exit_code, 3) << refused.err;
+    EXPECT_TRUE(refused.complains("collisions.sliding")) << refused.err;
+    EXPECT_TRUE(refused.complains("gas with walls or kicks")) << refused.err;
+  }
+}
+
 TEST_F(AuditCommand, TakesAShareOfThePairs) {
   const json all = run("audit small.toml --json").json();
   const json some = run("audit small.toml --json --share 0.1 --seed 3").json();
@@ -107,6 +138,7 @@ TEST_F(AuditCommand, TakesAShareOfThePairs) {
 TEST_F(AuditCommand, GoesOnWhereItWasInterrupted) {
   goes_on("audit cooling.toml");
   goes_on("audit cooling.toml --set needles.diameter=0.05 --set until.collisions_per_needle=20");
+  goes_on("audit sliding.toml");
 }
 
 TEST_F(AuditCommand, SavesWhenStopped) {

@@ -13,6 +13,7 @@ inline audit::Setup audit_setup(const Scene& scene, double epoch_length, double 
   setup.composition = scene.composition();
   setup.tc = c.tc;
   setup.tc_relative = c.tc_relative;
+  setup.sliding = audit::sliding_of(scene);
   setup.walls = scene.walls;
   setup.gravity = scene.forces.gravity;
   setup.driving = scene.driving;
