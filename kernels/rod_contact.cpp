@@ -180,7 +180,7 @@ DoubleDouble RodSearch::root(const Instant<T>& a, const Instant<T>& b) {
   const Instant<T> found = refine(a.s, b.s, start);
   if constexpr (std::is_same_v<T, double>) {
     const double enough = std::max(rod_polish_above, accuracy_.root_tolerance);
-    const bool is_known = found.error <= enough * found.s * -found.rate &&
+    const bool is_known = found.error <= enough * found.s * (-found.rate - found.rate_error) &&
                           found.rods.error <= std::max(rod_largest_error, accuracy_.root_tolerance);
     if (is_known) return found.s;
     return refine<DoubleDouble>(a.s, b.s, found.s).s;
@@ -191,13 +191,7 @@ DoubleDouble RodSearch::root(const Instant<T>& a, const Instant<T>& b) {
 
 // Whether rods that touch at s = 0 approach.
 bool RodSearch::meets_at_once(const Instant<double>& start) {
-  const double v = rods_.rates().velocity;
-  const double x = size_of(start.rods.x);
-  // The arms are off by rounding divided by |x|.
-  const double arms = 0x1p-49 * (frame().r_norm + frame().half[0] + frame().half[1]) / x;
-  const double error =
-      2 * v * start.rods.error + 2 * start.distance * (0x1p-48 * v + frame().w_sum * arms);
-  if (start.rate > 2 * error) return false;
+  if (start.rate > start.rate_error) return false;
   const Instant<DoubleDouble> fine = rods_.at(DoubleDouble());
   if (fine.excess > fine.error) return false;
   return fine.rate < -noise_of_rate(start);
@@ -217,7 +211,8 @@ bool RodSearch::returns_by_rounding(const DoubleDouble& root) {
   if (root.hi == 0) return true;
   const Instant<double> start = rods_.at(0.0);
   const double noise = 4 * noise_of_rate(start);
-  if (start.rate > 4 * noise || rods_.at(DoubleDouble()).rate > noise) return false;
+  if (start.rate - start.rate_error > 4 * noise || rods_.at(DoubleDouble()).rate > noise)
+    return false;
   const double gained = 64 * rods_.curvature(start.speed, start.distance) * start.error;
   const double rate = rods_.at(root).rate;
   return rate * rate <= noise * noise + gained;

@@ -42,7 +42,9 @@ struct RodSample {
   Vec3<T> gap;            ///< from that on the second axis to that on the first
   T square;               ///< gap . gap
   T rate;                 ///< and its rate of change, while these are the nearest points
+  double xx;              ///< x . x
   double error;           ///< of the length of the gap, from rounding
+  double director_error;  ///< of both directors together, from rounding
 };
 
 inline double within(double a, double half) { return minimum(maximum(a, -half), half); }
@@ -60,15 +62,17 @@ inline constexpr double least_product<DoubleDouble> = 0x1p-98;
 
 /// Sets the arms of the points where the axes are nearest, and the gap. Each point is the best for
 /// the one on the other axis, so that what rounding does to the first guess matters in second order
-/// only: an error d of it adds d^2 |x|^2 to the square of the distance, and it is about the
-/// roundoff divided by |x|. All points of axes that are parallel along each other are equally near;
-/// those in the middle are taken.
+/// only: an error d of it adds d^2 |x|^2 to the square of the distance. Next to parallel axes it is
+/// large, and first order for the rate: directors that are off by e turn x by e / |x|, and so move
+/// the points by e gap / |x|^2, besides e L / |x|. All points of axes that are parallel along each
+/// other are equally near; those in the middle are taken.
 template <class T>
 NEEDLEWORK_INLINE void set_nearest(RodSample<T>& at, const double (&half)[2]) {
   const T b = dot(at.u[0], at.u[1]), r0 = dot(at.r, at.u[0]), r1 = dot(at.r, at.u[1]);
   const T xx = dot(at.x, at.x);
+  at.xx = to_double(xx);
   T guess;
-  if (to_double(xx) > least_product<T> * least_product<T>) {
+  if (at.xx > least_product<T> * least_product<T>) {
     guess = dot(cross(at.u[1], at.r), at.x) / xx;
   } else {
     // The second axis, along the first one.
@@ -85,13 +89,15 @@ NEEDLEWORK_INLINE void set_nearest(RodSample<T>& at, const double (&half)[2]) {
 template <class T>
 NEEDLEWORK_INLINE RodSample<T> rods_at(const Frame<T>& frame, const T& s) {
   RodSample<T> out;
-  double turned = 0;
+  double turned = 0, off = 0;
   for (int i = 0; i < 2; ++i) {
     const T angle = frame.omega[i] * (s + frame.delay[i]);
     const SineCosine<T> sc = sine_cosine(angle);
     out.u[i] = frame.u[i] * sc.cosine + frame.p[i] * sc.sine;
     out.turn[i] = (frame.p[i] * sc.cosine - frame.u[i] * sc.sine) * frame.omega[i];
-    turned += frame.half[i] * (24 + 8 * std::abs(to_double(angle)));
+    const double of_director = 24 + 8 * std::abs(to_double(angle));
+    turned += frame.half[i] * of_director;
+    off += of_director;
   }
   out.r = frame.r + frame.v * s;
   out.x = director_product(out.u[0], out.u[1]);
@@ -104,6 +110,7 @@ NEEDLEWORK_INLINE RodSample<T> rods_at(const Frame<T>& frame, const T& s) {
   // 8 |phase| at most.
   out.error =
       unit_roundoff<T> * (8 * (frame.r_norm + frame.v_norm * std::abs(to_double(s))) + turned);
+  out.director_error = unit_roundoff<T> * off;
   return out;
 }
 

@@ -20,8 +20,8 @@ struct Instant {
   RodSample<T> rods;
   double distance;
   double excess, error;
-  double rate;   ///< of the excess
-  double speed;  ///< of a point of one axis relative to one of the other, not below
+  double rate, rate_error;  ///< of the excess
+  double speed;             ///< of a point of one axis relative to one of the other, not below
 };
 
 /// The pair in scaled lengths and time. It counts its evaluations.
@@ -81,6 +81,8 @@ class RodInstants {
 
  private:
   double largest_speed(const Vec3d& first_turn, const Vec3d& second_turn) const;
+  template <class T>
+  double rate_error_of(const Instant<T>& now) const;
 
   const RodPair& pair_;
   EvaluationCounters& counters_;
@@ -135,7 +137,18 @@ Instant<T> RodInstants::at(const T& s) {
   if constexpr (std::is_same_v<T, double>) out.error += threshold_error_;
   out.rate = to_double(out.rods.rate);
   out.speed = largest_speed(to_double(out.rods.turn[0]), to_double(out.rods.turn[1]));
+  out.rate_error = rate_error_of(out);
   return out;
+}
+
+// From errors of the gap, of the velocity and of the points at which both are taken.
+template <class T>
+double RodInstants::rate_error_of(const Instant<T>& now) const {
+  const double all = frame_.half[0] + frame_.half[1], x = std::sqrt(now.rods.xx);
+  const double off = now.rods.director_error * (now.distance + all * x);
+  const double arms = off < all * now.rods.xx ? off / now.rods.xx : all;
+  return 2 * (now.speed * (now.rods.error + arms * x) +
+              now.distance * (32 * unit_roundoff<T> * rates_.velocity + frame_.w_sum * arms));
 }
 
 // That of two tips, since the velocity is linear in the places on both axes.

@@ -107,7 +107,7 @@ inline bool RodStretches::stays_apart_for(const Instant<double>& a, double h) co
 
 template <class T>
 bool RodStretches::falls(const Instant<T>& a, const Instant<T>& b) const {
-  return 0.75 * a.rate +
+  return 0.75 * a.rate + a.rate_error +
              rods_.curvature(rods_.speed_between(a, b), a.distance) * to_double(b.s - a.s) <
          0;
 }
