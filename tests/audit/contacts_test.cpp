@@ -402,10 +402,11 @@ TEST_F(FalseReportOfContacts, OfANeedleThatIsPassedInContactIsSeen) {
 TEST_F(FalseReportOfContacts, IsSeenAsWellAfterAnInterruption) {
   const std::size_t n = find([&](std::size_t m) { return ends_by_itself(m); });
   run.happenings[n].event.after[0].velocity[0] += 1e-10;
+  const std::size_t struck = find([&](std::size_t m) { return collides_at_end(m); });
+  run.stop_after(std::max(n, struck) + 30);
   const Findings whole = run.audited();
   EXPECT_FALSE(whole.clean());
   const std::size_t entry = entry_of(n);
-  const std::size_t struck = find([&](std::size_t m) { return collides_at_end(m); });
   for (const std::size_t at : {std::size_t{1}, entry + 1, n, n + 1, struck, struck + 1}) {
     audit::Audit first(run.initial, run.setup);
     for (std::size_t m = 0; m < at; ++m) first.add(run.happenings[m]);
