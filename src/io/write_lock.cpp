@@ -7,10 +7,12 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <set>
 #include <string_view>
 #include <system_error>
+#include <thread>
 
 #include "needlework/error.h"
 #include "src/io/hdf5.h"
@@ -89,6 +91,17 @@ std::string reason_for(int absent) {
 constexpr const char* opened_elsewhere =
     ": another program or simulation has the file open for writing";
 
+// Whether a lock stays refused for half a second. A program that has been killed may have just
+// forked to read a file: that process has its locks until it runs, and closes them first of all.
+template <class Refused>
+bool stays_refused(Refused&& refused) {
+  for (int tries = 0; refused(); ++tries) {
+    if (tries == 50) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
 // Those of all locks of the process. Used in a session, so that no other thread is about to change
 // them when hdf5::fork_process() forks.
 std::set<int>& descriptors() {
@@ -121,7 +134,9 @@ LockState lock_state(const std::string& name) {
 }
 
 void require_not_being_written(const std::string& name, const std::string& place) {
-  if (lock_state(name).opened_to_write) throw IoError(place + opened_elsewhere);
+  if (stays_refused([&] { return lock_state(name).opened_to_write; })) {
+    throw IoError(place + opened_elsewhere);
+  }
 }
 
 std::string warning_without_locks(const std::string& name, const std::string& place) {
@@ -138,11 +153,11 @@ WriteLock::WriteLock(const std::string& name, const std::string& place)
   if (descriptor_ < 0) fail_lock(place_, errno);
   struct stat status;
   const bool regular = fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
-  const auto locked = [&] {
-    return locks_turned_off() ||
-           (!lock_against_hdf5(descriptor_).refused && !lock_against_writers(descriptor_).refused);
+  const auto refused = [&] {
+    return !locks_turned_off() &&
+           (lock_against_hdf5(descriptor_).refused || lock_against_writers(descriptor_).refused);
   };
-  if (regular && locked()) {
+  if (regular && !stays_refused(refused)) {
     const hdf5::Session session;
     descriptors().insert(descriptor_);
     return;
