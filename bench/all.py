@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Makes all tables and pictures of performance, accuracy, scaling and effects, on this machine.
 
-    bench/all.py                      about two hours on two quiet cores, by estimates
+    bench/all.py                      three quarters of an hour, on two cores of an EPYC with
+                                      AVX-512; with other engines an hour and 40 minutes
     bench/all.py --list               what it does, and how long each step takes
     bench/all.py --time-budget 60     no step is begun after an hour; the same command continues
     bench/all.py --only rods effects  some steps
@@ -44,21 +45,21 @@ class Step:
 
 STEPS = [
     Step("performance", "performance.py", ("--no-instructions",), ("--no-instructions", "--quick"),
-         25, "times by search, calendar, instruction set, size, density and threads"),
-    Step("accuracy", "accuracy/accuracy.py", ("--readme",), ("pairs", "--quick"), 70,
+         14, "times by search, calendar, instruction set, size, density and threads"),
+    Step("accuracy", "accuracy/accuracy.py", ("--readme",), ("pairs", "--quick"), 25,
          "cost against error of each level of accuracy"),
-    Step("rods", "rods_price.py", (), ("--rounds", "0", "--threads", "1", "--dry"), 10,
+    Step("rods", "rods_price.py", (), ("--rounds", "0", "--threads", "1", "--dry"), 2,
          "what rods and spheres cost"),
     Step("effects", "instructions.py", ("effects",), ("effects", "--only", "normal restitution",
-                                                      "--out", "{folder}/effects.md"), 20,
+                                                      "--out", "{folder}/effects.md"), 2,
          "instructions and bytes of each effect, off and on, on one and two threads"),
-    Step("shares", "instructions.py", ("shares",), (), 2, "where instructions go"),
-    Step("build", "build_cost.py", (), ("--dry",), 4,
+    Step("shares", "instructions.py", ("shares",), (), 1, "where instructions go"),
+    Step("build", "build_cost.py", (), ("--dry",), 3,
          "how many event loops are compiled, sizes, and how long the compiler takes"),
     Step("peers", "peers/peers.py", ("--document",),
-         ("--repetitions", "6", "--scene", "spheres-0.1", "--out", "{folder}/peers.md"), 40,
+         ("--repetitions", "6", "--scene", "spheres-0.1", "--out", "{folder}/peers.md"), 28,
          "what a collision costs in other engines"),
-    Step("cross-check", "peers/cross_check.py", ("--document",), ("--case", "small"), 5,
+    Step("cross-check", "peers/cross_check.py", ("--document",), ("--case", "small"), 25,
          "whether other engines do the same"),
 ]
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Measures what docs/performance.md shows, on this machine and at one commit, and puts its tables there.
 
-    bench/performance.py                     about 20 minutes on two quiet cores
+    bench/performance.py                     about 15 minutes on two quiet cores
     bench/performance.py --time-budget 20    no longer than that; the same command continues
     bench/performance.py tables              no measuring: puts what there is into the document
 

@@ -66,7 +66,7 @@ class All(unittest.TestCase):
         done = self.run_script()
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         first = done.stdout.split("== ")[0]
-        self.assertIn("6 of 6 steps are left, about 131 min", first)
+        self.assertIn("6 of 6 steps are left, about 47 min", first)
         self.assertLess(sum(step.minutes for step in runpy.run_path(str(BENCH / "all.py"))["STEPS"]),
                         180)
         self.assertEqual(self.called(), self.ALL)
