@@ -134,9 +134,7 @@ LockState lock_state(const std::string& name) {
 }
 
 void require_not_being_written(const std::string& name, const std::string& place) {
-  if (stays_refused([&] { return lock_state(name).opened_to_write; })) {
-    throw IoError(place + opened_elsewhere);
-  }
+  if (lock_state(name).opened_to_write) throw IoError(place + opened_elsewhere);
 }
 
 std::string warning_without_locks(const std::string& name, const std::string& place) {
