@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "src/observe/contact_share.h"
+
 namespace needlework::observe {
 namespace {
 
@@ -171,8 +173,7 @@ class ContactSums : public Observable {
       row.put(static_cast<double>(number));
     }
     row.put(contacts.time);
-    // As runs::contact_share().
-    row.put(2 * contacts.time / (static_cast<double>(now.gas.count) * now.totals.time));
+    row.put(contact_share(contacts.time, now.gas.count, now.totals.time));
   }
 
   bool reads_state() const override { return false; }

@@ -2,13 +2,14 @@
 #pragma once
 
 #include "needlework/simulation.h"
+#include "src/observe/contact_share.h"
 
 namespace needlework::runs {
 
 /// The share of its time since the start that a needle has been in contact, the mean of all
 /// needles. NaN at the start.
 inline double contact_share(const Simulation& simulation, const SlidingContacts& contacts) {
-  return 2 * contacts.time / (static_cast<double>(simulation.needles()) * simulation.time());
+  return observe::contact_share(contacts.time, simulation.needles(), simulation.time());
 }
 
 }  // namespace needlework::runs

@@ -84,9 +84,7 @@ TEST(Audit, FindsNothingWrongWithTheEngine) {
 
 Scene mixture() {
   Scene scene = scene_of(0, 5);
-  scene.species = {{.name = "short", .count = 100, .length = 0.6, .mass = 0.5, .k = 4},
-                   {.name = "long", .count = 12, .length = 2.2, .mass = 7, .k = 6, .t_tr = 0.3},
-                   {.name = "middle", .count = 40, .length = 1, .mass = 1, .k = 2, .t_rot = 2}};
+  scene.species = three_species();
   scene.collisions.epsilon = 0.9;
   scene.collisions.tc_relative = 1e-3;
   scene.pairs = {{.between = {"short", "long"}, .epsilon = 0.6, .beta = 0.2},

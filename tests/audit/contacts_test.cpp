@@ -60,9 +60,7 @@ struct SlidingRun {
 
 Scene sliding_mixture() {
   Scene scene = scene_of(0, 5);
-  scene.species = {{.name = "short", .count = 100, .length = 0.6, .mass = 0.5, .k = 4},
-                   {.name = "long", .count = 12, .length = 2.2, .mass = 7, .k = 6, .t_tr = 0.3},
-                   {.name = "middle", .count = 40, .length = 1, .mass = 1, .k = 2, .t_rot = 2}};
+  scene.species = three_species();
   scene.collisions.epsilon = 0.6;
   scene.collisions.sliding = true;
   scene.pairs = {{.between = {"short", "long"}, .epsilon = 0.3, .beta = {}},

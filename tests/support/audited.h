@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "src/audit/audit.h"
 #include "tests/support/audit_setup.h"
@@ -64,6 +65,13 @@ inline void expect_clean(const audit::Findings& findings, const std::string& wha
   EXPECT_TRUE(findings.clean()) << what << ": " << listed(findings);
   // Pairs whose contact rounding decides are one in millions.
   EXPECT_LE(findings.undecided, 1 + findings.checked / 1000000) << what << ": " << listed(findings);
+}
+
+/// Needles of three lengths, of which the long ones are few.
+inline std::vector<Species> three_species() {
+  return {{.name = "short", .count = 100, .length = 0.6, .mass = 0.5, .k = 4},
+          {.name = "long", .count = 12, .length = 2.2, .mass = 7, .k = 6, .t_tr = 0.3},
+          {.name = "middle", .count = 40, .length = 1, .mass = 1, .k = 2, .t_rot = 2}};
 }
 
 }  // namespace needlework::test
