@@ -19,6 +19,7 @@
 #include <type_traits>
 
 #include "kernels/double_double.h"
+#include "kernels/ieee_arithmetic.h"
 #include "kernels/range.h"
 #include "kernels/sine_cosine.h"
 #include "kernels/vec3.h"

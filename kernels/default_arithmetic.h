@@ -4,6 +4,8 @@
 
 #include <cfenv>
 
+#include "kernels/ieee_arithmetic.h"
+
 namespace needlework::kernels {
 
 /// While it exists, the thread that made it rounds to nearest, keeps numbers near 0 and traps

@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "kernels/ieee_arithmetic.h"
 #include "kernels/vec3.h"
 
 namespace needlework {
