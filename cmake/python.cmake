@@ -46,6 +46,9 @@ copy_to_package(python/needlework ${package} *.py *.pyi py.typed)
 copy_to_package(profiles/paper ${package}/reproduce/paper *.toml)
 add_custom_target(needlework_python_files ALL DEPENDS ${copies})
 add_dependencies(needlework_python needlework_python_files)
+# For `needlework --version`.
+target_compile_definitions(needlework_program PRIVATE
+  NEEDLEWORK_PYTHON_VERSION="${Python_VERSION}")
 
 # Debian's Python looks into dist-packages below /usr/local, others into site-packages.
 execute_process(COMMAND ${NEEDLEWORK_PYTHON} -c "import sys, sysconfig

@@ -228,7 +228,9 @@ void add_commands(CLI::App& app, int& exit_code) {
   app.formatter(formatter);
   app.set_help_flag("-h,--help", "show this help");
   app.require_subcommand(1);
-  app.set_version_flag("-v,--version", version_text, "show version, compiler, CPU and libraries");
+  app.set_version_flag("-v,--version", version_text,
+                       "show version, compiler, CPU, libraries, and whether MPI and Python are in "
+                       "the build");
   add_run_commands(app, exit_code);
   add_file_commands(app, exit_code);
   add_serve_command(app, exit_code);

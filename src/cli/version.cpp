@@ -16,9 +16,23 @@ std::string compiler_name() {
 }
 
 std::string version_text() {
-  return fmt::format("needlework {}\ncompiler  {}\nflags     {}\nISA       {}\nHDF5      {}",
-                     NEEDLEWORK_VERSION, compiler_name(), NEEDLEWORK_FLAGS,
-                     fmt::join(runs::instruction_sets(), " "), NEEDLEWORK_HDF5_VERSION);
+#ifdef NEEDLEWORK_MPI
+  constexpr const char* mpi = "yes, needlework sweep runs under mpirun";
+#else
+  constexpr const char* mpi =
+      "no: install section [mpi] of packages.txt, then configure and build again";
+#endif
+#ifdef NEEDLEWORK_PYTHON_VERSION
+  constexpr const char* python = NEEDLEWORK_PYTHON_VERSION;
+#else
+  constexpr const char* python =
+      "no: install section [python] of packages.txt, then configure and build again";
+#endif
+  return fmt::format(
+      "needlework {}\ncompiler  {}\nflags     {}\nISA       {}\nHDF5      {}\nMPI       {}\n"
+      "Python    {}",
+      NEEDLEWORK_VERSION, compiler_name(), NEEDLEWORK_FLAGS,
+      fmt::join(runs::instruction_sets(), " "), NEEDLEWORK_HDF5_VERSION, mpi, python);
 }
 
 }  // namespace needlework::cli

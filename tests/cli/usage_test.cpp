@@ -27,7 +27,8 @@ TEST_F(Usage, HelpAndVersionExitWith0) {
   EXPECT_EQ(run("run --help").exit_code, 0);
   const Outcome version = run("--version");
   EXPECT_EQ(version.exit_code, 0);
-  for (const char* part : {"needlework 0.", "compiler", "ISA       scalar", "HDF5      1."}) {
+  for (const char* part : {"needlework 0.", "compiler", "ISA       scalar", "HDF5      1.",
+                           "MPI       ", "Python    "}) {
     EXPECT_NE(version.out.find(part), std::string::npos) << part << " in\n" << version.out;
   }
 }
