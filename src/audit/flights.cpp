@@ -187,7 +187,11 @@ void Audit::check_touching(const Flown& flown, PairMotion& pair) {
     before = finder.first(flown.encounter.begin, begin);
     while (before && !before->certain) {
       undecided = true;
-      before = before->end < begin ? finder.next(before->end, begin) : std::nullopt;
+      if (!(before->end < begin)) {
+        before.reset();
+        break;
+      }
+      before = finder.next(before->end, begin);
     }
   }
   // The contact of this collision. The touch at which the pair started does not count.

@@ -349,7 +349,7 @@ py::object Run::sliding_contacts() {
   out["crowded"] = contacts->crowded;
   out["time"] = contacts->time;
   out["share"] = runs::contact_share(run_->simulation(), *contacts);
-  return std::move(out);
+  return out;
 }
 
 py::dict Run::energy_budget() {

@@ -14,6 +14,9 @@ Batches<Report>::Batches(Simulation& simulation, std::size_t batch, Callback cal
 }
 
 template <class Report>
+Batches<Report>::~Batches() = default;
+
+template <class Report>
 void Batches<Report>::add(const Report& report) {
   make_room();
   collected_.push_back(report);

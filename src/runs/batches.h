@@ -27,6 +27,9 @@ class Batches {
   /// Calls for each `batch` collisions (at least 1), or for fewer where memory does not suffice.
   /// Both must outlive this object.
   Batches(Simulation& simulation, std::size_t batch, Callback callback);
+  ~Batches();
+  Batches(const Batches&) = delete;
+  Batches& operator=(const Batches&) = delete;
 
   void add(const Report& report);
   /// Passes on what is left, or throws what the function has thrown since the last flush().
