@@ -81,10 +81,15 @@ void expect_clean_run(const Scene& scene, double per_needle, std::uint64_t least
 }
 
 TEST(AuditOfContacts, FindsNothingWrongWithTheEngine) {
+  expect_clean_run(sliding_gas(150, 0.72, 0.5), 10, 20);
+  expect_clean_run(sliding_gas(150, 6, 0.5), 5, 5);
+  expect_clean_run(sliding_gas(80, 1, 0), 3, 20);
+}
+
+TEST(AuditOfContacts, FindsNothingWrongInLongerRuns_long) {
   expect_clean_run(sliding_gas(150, 0.72, 0.5), 20, 40);
   expect_clean_run(sliding_gas(150, 6, 0.5), 15, 20);
   expect_clean_run(sliding_gas(100, 1, 0.9), 100, 1);
-  expect_clean_run(sliding_gas(80, 1, 0), 3, 20);
 }
 
 TEST(AuditOfContacts, FindsNothingWrongWithOtherThresholdsAndElasticStrikes) {
@@ -334,7 +339,7 @@ TEST_F(FalseReportOfContacts, OfAContactHeldTooLongIsSeen) {
     for (const auto& room : motion.rooms_at(lasted)) {
       if (std::abs(room.value) < 1e-9 && room.is_of_force) is_force = true;
     }
-    (is_force ? by_force : by_tip) += 1;
+    if ((is_force ? by_force : by_tip)++ > 2) continue;
     for (const double by : {1e-7, -1e-7}) {
       const Findings findings = altered(n, [&](Happening& h) {
         h.event.offset += by;

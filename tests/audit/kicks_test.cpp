@@ -21,7 +21,7 @@ Scene kicked(double every = 0.1) {
   return scene;
 }
 
-TEST(AuditOfKicks, FindsNothingWrongWithTheEngine) {
+TEST(AuditOfKicks, FindsNothingWrongWithTheEngine_long) {
   Scene from_rest = kicked();
   from_rest.initial.t_tr = from_rest.initial.t_rot = 0;
   Scene mixture = kicked();

@@ -118,7 +118,7 @@ TEST(Boltzmann, EncountersCollapseAsOftenAsInAnotherCount) {
 // By an independent count the temperatures approach each other at 0.88 of the rate of the theory,
 // for k = 6 and 2, as velocities do not stay Gaussian; here fitted between 1/e and 1/e^3 of the
 // theory.
-TEST(Boltzmann, SingleCollisionsRelaxMoreSlowlyThanGaussianOnes) {
+TEST(Boltzmann, SingleCollisionsRelaxMoreSlowlyThanGaussianOnes_long) {
   for (const double k : {6.0, 2.0}) {
     const theory::Gas gas{k, 1, -1};
     const theory::Temperatures initial{1, 0.4};

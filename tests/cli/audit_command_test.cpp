@@ -135,7 +135,7 @@ TEST_F(AuditCommand, TakesAShareOfThePairs) {
   EXPECT_TRUE(nothing.complains("expected a larger share"));
 }
 
-TEST_F(AuditCommand, GoesOnWhereItWasInterrupted) {
+TEST_F(AuditCommand, GoesOnWhereItWasInterrupted_long) {
   goes_on("audit cooling.toml");
   goes_on("audit cooling.toml --set needles.diameter=0.05 --set until.collisions_per_needle=20");
   goes_on("audit sliding.toml");

@@ -15,7 +15,7 @@ class NeverColliding : public ProgramTest {
   }
 };
 
-TEST_F(NeverColliding, StatesAreNamedAndNeedALimitOnTime) {
+TEST_F(NeverColliding, StatesAreNamedAndNeedALimitOnTime_long) {
   Scene scene;
   scene.needles.count = 500;
   scene.needles.box = {8, 8, 8};

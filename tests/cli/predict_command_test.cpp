@@ -125,7 +125,7 @@ TEST_F(PredictCommand, RefusesPairsThatWouldTakeTooLong) {
 
 // Needles in one plane that is tilted, up to rounding; needles that turn in parallel planes; and a
 // needle that turns beside one at rest.
-TEST_F(PredictCommand, GivesUpPairsThatTurnNearEachOtherForEver) {
+TEST_F(PredictCommand, GivesUpPairsThatTurnNearEachOtherForEver_long) {
   for (const std::string pair : {".9,.1,.2,.3,.7,-.1,0,0,0,1,1,.7,0,0,0,.3,.7,-.1,0,0,0,1,1,.7,0",
                                  "0,0,.5,1,0,0,0,0,0,0,0,1e3,0,0,0,0,1,0,0,0,0,0,0,-711.3,0",
                                  "0,0,.9,1,0,0,0,0,0,0,0,1e3,0,0,0,0,1,0,0,0,0,0,0,0,0"}) {
@@ -144,7 +144,7 @@ TEST_F(PredictCommand, GivesUpPairsThatTurnNearEachOtherForEver) {
 }
 
 // A needle whose centre stays, to within rounding, on the line of another one while it turns.
-TEST_F(PredictCommand, GivesUpAPairThatItCannotDecide) {
+TEST_F(PredictCommand, GivesUpAPairThatItCannotDecide_long) {
   for (const std::string accuracy : {"standard", "rigorous"}) {
     write("pairs.csv", "1,,1e300,0,0,0,1,0,0,1,0,0,0,1e300,0,0,0.1,0,0,1,0,-1,0,0,0,0,1,0\n");
     const Outcome outcome =

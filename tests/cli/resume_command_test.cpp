@@ -62,20 +62,23 @@ TEST_F(ResumeCommand, RemovesAnEnd) {
   EXPECT_TRUE(run("resume a.h5 --set until.time=never").complains("or none to remove it"));
 }
 
-TEST_F(ResumeCommand, GoesOnAfterSignals) {
+class ResumeAfterASignal : public ResumeCommand, public testing::WithParamInterface<const char*> {};
+
+TEST_P(ResumeAfterASignal, GoesOn) {
   write("long.toml", read("gas.toml") + "[engine]\nsearch = \"linked-lists\"\n");
   const std::string more = " --set needles.count=2000 --set needles.box=13 ";
   const std::string whole = hash_of("run long.toml --out whole.h5" + more);
-  for (const std::string signal : {"INT", "TERM", "HUP"}) {
-    const std::string file = signal + ".h5";
-    const Outcome stopped = run_and_signal("run long.toml --quiet --out " + file + more,
-                                           "test -e " + file + ".checkpoint", signal);
-    ASSERT_EQ(stopped.exit_code, 75) << signal << ": " << stopped.err;
-    EXPECT_NE(stopped.err.find("needlework resume " + file + " continues"), std::string::npos)
-        << stopped.err;
-    EXPECT_EQ(hash_of("resume " + file), whole) << signal;
-  }
+  const std::string signal = GetParam(), file = signal + ".h5";
+  const Outcome stopped = run_and_signal("run long.toml --quiet --out " + file + more,
+                                         "test -e " + file + ".checkpoint", signal);
+  ASSERT_EQ(stopped.exit_code, 75) << stopped.err;
+  EXPECT_NE(stopped.err.find("needlework resume " + file + " continues"), std::string::npos)
+      << stopped.err;
+  EXPECT_EQ(hash_of("resume " + file), whole);
 }
+
+INSTANTIATE_TEST_SUITE_P(Signals, ResumeAfterASignal, testing::Values("INT", "TERM", "HUP"),
+                         [](const auto& signal) { return std::string(signal.param); });
 
 TEST_F(ResumeCommand, GoesOnAfterTheTimeLimitWhichCountsAnew) {
   const Outcome stopped = run("run gas.toml --quiet --out a.h5 --set until.wall_s=0");

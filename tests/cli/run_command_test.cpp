@@ -398,7 +398,7 @@ TEST_F(RunCommand, SumsUpInPlainWords) {
     EXPECT_NE(elastic.out.find(part), std::string::npos) << part << " in\n" << elastic.out;
 }
 
-TEST_F(RunCommand, DrawsOneLineOfProgressOnATerminal) {
+TEST_F(RunCommand, DrawsOneLineOfProgressOnATerminal_long) {
   if (shell("script -qec true screen").exit_code != 0)
     GTEST_SKIP() << "no terminal can be had here";
   shell_and_signal("script -qefc \"'" NEEDLEWORK_PROGRAM "' run endless.toml --json\" screen",

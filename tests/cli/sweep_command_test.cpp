@@ -128,7 +128,7 @@ tc_relative = 1e-3
   }
 }
 
-TEST_F(SweepCommand, SummaryDoesNotDependOnThreadsOrShares) {
+TEST_F(SweepCommand, SummaryDoesNotDependOnThreadsOrShares_long) {
   const json one = result("grid.toml --out one --threads 1");
   std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // a time in the file would differ
   const json two = result("grid.toml --out two --threads 2");
@@ -194,7 +194,7 @@ TEST_F(SweepCommand, RunsNothingTwice) {
   EXPECT_FALSE(exists("twice/epsilon=0.9,seed=2.h5.part"));
 }
 
-TEST_F(SweepCommand, GoesOnAfterSignals) {
+TEST_F(SweepCommand, GoesOnAfterSignals_long) {
   const json whole = result("long.toml --out whole --threads 2");
   for (const std::string signal : {"INT", "TERM", "KILL"}) {
     const std::string out = "long.toml --out " + signal;
@@ -220,7 +220,7 @@ TEST_F(SweepCommand, GoesOnAfterSignals) {
 }
 
 // What can be continued, but not now, must not be begun again.
-TEST_F(SweepCommand, KeepsAMemberThatAnotherProgramHasOpen) {
+TEST_F(SweepCommand, KeepsAMemberThatAnotherProgramHasOpen_long) {
   run_and_signal("sweep --threads 1 long.toml --out locked", "ls locked/*.h5.part", "INT");
   const std::filesystem::directory_iterator files(path("locked"));
   const auto part = std::find_if(begin(files), end(files), [](const auto& file) {
@@ -239,7 +239,7 @@ TEST_F(SweepCommand, KeepsAMemberThatAnotherProgramHasOpen) {
   EXPECT_EQ(result("long.toml --out locked")["missing"], 0);
 }
 
-TEST_F(SweepCommand, TwoSweepsOfOneFolderDoNotRunTheSame) {
+TEST_F(SweepCommand, TwoSweepsOfOneFolderDoNotRunTheSame_long) {
   Outcome other;
   std::thread first([&] { other = run("sweep --json long.toml --out both --threads 1"); });
   while (!exists("both/grid.toml")) std::this_thread::yield();
@@ -350,7 +350,7 @@ TEST_F(SweepOverRanks, GiveTheSameSummary) {
   EXPECT_TRUE(read("ranks/summary.h5") == read("one/summary.h5"));
 }
 
-TEST_F(SweepOverRanks, GoOnAfterASignal) {
+TEST_F(SweepOverRanks, GoOnAfterASignal_long) {
   const json whole = result("long.toml --out whole --threads 2");
   const Outcome stopped = run_and_signal("sweep long.toml --out ranks --threads 1",
                                          "ls ranks/*.h5.part", "TERM", launcher);
@@ -367,7 +367,7 @@ TEST_F(SweepOverRanks, GoOnAfterASignal) {
 
 // In one needle nothing can ever happen: half of the members fail. What was in the log before ends
 // in the middle of a line.
-TEST_F(SweepOverRanks, WriteOneLogOfWholeLines) {
+TEST_F(SweepOverRanks, WriteOneLogOfWholeLines_long) {
   write("half.toml", R"(scene = "cooling.toml"
 seeds = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20]
 [parameters]
@@ -401,7 +401,7 @@ seeds = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20]
   EXPECT_EQ(ends_of_members.size(), 40u) << "each once";
 }
 
-TEST_F(SweepOverRanks, NoOtherCommandRunsOnSeveral) {
+TEST_F(SweepOverRanks, NoOtherCommandRunsOnSeveral_long) {
   for (const std::string command : {"run small.toml --out twice.h5", "check small.toml"}) {
     const Outcome outcome = run(command, launcher);
     EXPECT_EQ(outcome.exit_code, 2);

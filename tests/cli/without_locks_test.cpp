@@ -50,7 +50,7 @@ TEST_F(WithoutLocks, EverythingWorksWithOneWarning) {
   }
 }
 
-TEST_F(WithoutLocks, StoppedRunsAndSweepsGoOn) {
+TEST_F(WithoutLocks, StoppedRunsAndSweepsGoOn_long) {
   const std::string before = preloaded(EOPNOTSUPP);
   const std::string more =
       " --set needles.count=2000 --set needles.box=13 "

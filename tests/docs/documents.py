@@ -78,7 +78,7 @@ def tests():
     folder = ROOT / "tests"
     suites = {suite for path in folder.rglob("*.cpp")
               for suite in re.findall(r"^TEST(?:_F|_P)?\((\w+),", path.read_text(), re.M)}
-    scripts = re.findall(r"add_test\(NAME (\w+\.\S+)", (folder / "CMakeLists.txt").read_text())
+    scripts = re.findall(r"script_test\((\w+\.\S+)", (folder / "CMakeLists.txt").read_text())
     python = {f"python.{path.stem.removeprefix('test_')}" for path in folder.glob("python/test_*.py")}
     return suites | python | {re.sub(r"\$\{\w+\}", r"\\w+", name) for name in scripts}
 

@@ -197,7 +197,7 @@ TEST(SourceOfEvents, HasOneTrajectory) {
 }
 
 // With short sight phases are rolled back again and again, columns too.
-TEST(SourceOfEvents, HasOneTrajectoryOnThreads) {
+TEST(SourceOfEvents, HasOneTrajectoryOnThreads_long) {
   const Scene scene = gas(1200, 12);
   for (const std::uint32_t most : {never, 2u}) {
     const Turned first = turned(scene, most, test::loop_of("linked-cells", "tournament"));

@@ -39,7 +39,7 @@ Scene rough_gas() {
   return scene;
 }
 
-TEST(Prepare, IsStoppedBeforeTheFirstEventAndContinues) {
+TEST(Prepare, IsStoppedBeforeTheFirstEventAndContinues_long) {
   const auto until = until_collisions(4);
   for (const Scene& scene : engines(rough_gas())) {
     SCOPED_TRACE(name_of(scene));

@@ -51,23 +51,23 @@ INSTANTIATE_TEST_SUITE_P(
     Scenes, SearchEquivalence,
     testing::Values(Case{"dilute", 300, {12, 12, 12}, 1, -1, 0, 1, 600},
                     Case{"dense", 400, {3.2, 3.2, 3.2}, 1, -1, 0, 1, 600},
-                    Case{"very_dense", 300, {2.01, 2.01, 2.01}, 1, -1, 0, 1, 600},
+                    Case{"very_dense_long", 300, {2.01, 2.01, 2.01}, 1, -1, 0, 1, 600},
                     Case{"cooling", 300, {7, 7, 7}, 0.8, -1, 1e-3, 0, 1500},
-                    Case{"strongly_cooling", 200, {6, 6, 6}, 0.4, -1, 1e-2, 1, 3000},
-                    Case{"cooling_by_decades", 40, {4, 4, 4}, 0.5, -1, 3e-2, 1, 3000, 5e-2},
+                    Case{"strongly_cooling_long", 200, {6, 6, 6}, 0.4, -1, 1e-2, 1, 3000},
+                    Case{"cooling_by_decades_long", 40, {4, 4, 4}, 0.5, -1, 3e-2, 1, 3000, 5e-2},
                     Case{"rough", 200, {6, 6, 6}, 0.9, 0.4, 1e-3, 1, 1000},
                     Case{"perfectly_rough", 200, {5, 5, 5}, 1, 1, 0, 1, 1000},
                     Case{"not_rotating", 100, {5, 5, 5}, 1, -1, 0, 0, 300},
                     Case{"least_box", 40, {2.01, 2.01, 2.01}, 1, -1, 0, 1, 600},
                     Case{"least_box_cooling", 60, {2.01, 2.02, 2.01}, 0.7, -1, 1e-3, 1, 1500},
                     Case{"flat_box", 200, {2.01, 9, 3.3}, 0.9, -1, 1e-3, 1, 800},
-                    Case{"very_dilute", 30, {20, 20, 20}, 1, -1, 0, 1, 30},
+                    Case{"very_dilute_long", 30, {20, 20, 20}, 1, -1, 0, 1, 30},
                     Case{"two_needles", 2, {2.01, 2.01, 2.01}, 1, -1, 0, 1, 300}),
     [](const auto& info) { return std::string(info.param.name); });
 
 // If bounding volumes hid a needle from another, it would show about once in a thousand
 // collisions. They extend farthest beyond their cells in dilute gases.
-TEST(SearchEquivalence, HoldsForManyNeedlesOverManyCollisions) {
+TEST(SearchEquivalence, HoldsForManyNeedlesOverManyCollisions_long) {
   for (const double box : {100.0, 46.0, 14.0, 5.57}) {
     Scene scene = test::scene_of(2000, box, 1);
     SCOPED_TRACE(test::name_of(scene));

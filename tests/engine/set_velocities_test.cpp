@@ -230,7 +230,7 @@ TEST(SetVelocities, IsTheSameWithEverySearchCalendarAndThread) {
 }
 
 // Of so many that threads share the work.
-TEST(SetVelocities, IsTheSameOnThreadsThatShareTheWork) {
+TEST(SetVelocities, IsTheSameOnThreadsThatShareTheWork_long) {
   Scene scene = test::scene_of(3000, 9, 13);
   scene.collisions.epsilon = 0.9;
   scene.collisions.tc_relative = 1e-2;

@@ -169,7 +169,7 @@ TEST(SetVelocities, OfANeedleTouchingTwoKeepBothSides) {
 // Many needles whose contact points meet in one point at time 1: nearly all pairs touch to within
 // rounding, in the midst of a train of collisions. Whatever velocities they get then, none comes
 // through another.
-TEST(SetVelocities, OfManyThroughOnePointKeepTheirSides) {
+TEST(SetVelocities, OfManyThroughOnePointKeepTheirSides_long) {
   constexpr double little = 1e-4;
   int compared = 0;
   std::uint64_t touches = 0;

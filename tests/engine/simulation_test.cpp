@@ -46,7 +46,7 @@ TEST(Simulation, EndsAtTheExactCollision) {
   EXPECT_EQ(simulation.time(), last);
 }
 
-TEST(Simulation, TellsTheTimesOfCollisions) {
+TEST(Simulation, TellsTheTimesOfCollisions_long) {
   for (const int threads : {1, 2, 5}) {
     Scene scene = test::scene_of(2000, 14);
     scene.engine.threads = threads;

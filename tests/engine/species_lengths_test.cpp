@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
     name_of);
 
 // The searches agree bit for bit where lengths are no powers of two, as they do for length 1.
-TEST(SpeciesOfAnyLength, HaveOneTrajectoryOnEverySearch) {
+TEST(SpeciesOfAnyLength, HaveOneTrajectoryOnEverySearch_long) {
   for (const double density : {0.5, 8.0}) {
     for (const double length : {0.037, 21.3}) {
       SCOPED_TRACE("density " + std::to_string(density) + ", length " + std::to_string(length));

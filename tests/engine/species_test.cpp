@@ -91,7 +91,7 @@ TEST(TableOfSpecies, OfLengthAndMassOneChangesNoBit) {
   }
 }
 
-TEST(TableOfSpecies, OfLengthAndMassOneChangesNoBitOnThreads) {
+TEST(TableOfSpecies, OfLengthAndMassOneChangesNoBitOnThreads_long) {
   const Scene scene = test::scene_of(500, 6, 9);
   const auto until = test::until_collisions(8);
   Simulation simulation(scene);

@@ -413,7 +413,7 @@ TEST(Walls, KeepAnAccountOfTheEnergyThatCloses) {
   EXPECT_LT(std::abs(account.drift), 1e-11);
 }
 
-TEST(Walls, KeepAnAccountThatClosesOverAMillionHits) {
+TEST(Walls, KeepAnAccountThatClosesOverAMillionHits_long) {
   const EnergyOnAVibratedFloor account(1000000);
   EXPECT_LT(std::abs(account.by_events), 1e-10);
   EXPECT_LT(std::abs(account.drift), 1e-10);

@@ -210,14 +210,16 @@ TEST_P(CollapseInQuad, WithContactTimeIsTheSame) {
   all.expect_near(8);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Rules, CollapseInQuad,
-    testing::Values(Rule{0.3, -1}, Rule{0.6, -1}, Rule{0.9, -1}, Rule{0.3, 0}, Rule{0.8, 0},
-                    Rule{0.3, 0.5}, Rule{0.6, 1}),
-    [](const auto& info) {
-      const Rule& rule = info.param;
-      return test::parameter_name({{"epsilon", rule.epsilon}, {"beta", rule.beta}});
-    });
+std::string rule_name(const testing::TestParamInfo<Rule>& info) {
+  const Rule& rule = info.param;
+  return test::parameter_name({{"epsilon", rule.epsilon}, {"beta", rule.beta}});
+}
+
+INSTANTIATE_TEST_SUITE_P(Rules, CollapseInQuad,
+                         testing::Values(Rule{0.3, -1}, Rule{0.6, -1}, Rule{0.9, -1}, Rule{0.8, 0},
+                                         Rule{0.3, 0.5}, Rule{0.6, 1}),
+                         rule_name);
+INSTANTIATE_TEST_SUITE_P(Rules_long, CollapseInQuad, testing::Values(Rule{0.3, 0}), rule_name);
 
 // A third needle strikes one of a collapsing pair between two of its bounces, which may be very
 // close. The records are then replaced while the gap of the pair is very small.
@@ -256,7 +258,7 @@ State struck_pair(Random& random, double epsilon, int bounces) {
   }
 }
 
-TEST(CollapseOfThree, IsTheSameInQuad) {
+TEST(CollapseOfThree, IsTheSameInQuad_long) {
   const double until = 0.3;
   for (const double tc : {0.0, 5e-3}) {
     for (const double epsilon : {0.3, 0.6, 0.8}) {

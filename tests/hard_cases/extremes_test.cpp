@@ -129,7 +129,7 @@ TEST(Scales, OfFlightAndRotationMayBeFarApart) {
   }
 }
 
-TEST(Inertia, MayBeOfAnySize) {
+TEST(Inertia, MayBeOfAnySize_long) {
   for (const double k : {1e-3, 2.0, 6.0, 1000.0, 1e6}) {
     for (const double epsilon : {1.0, 0.8}) {
       Scene scene = gas(60, 3);
@@ -144,7 +144,7 @@ TEST(Inertia, MayBeOfAnySize) {
   }
 }
 
-TEST(Restitution, MayBeAnyOfItsRange) {
+TEST(Restitution, MayBeAnyOfItsRange_long) {
   for (const double beta : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
     for (const double epsilon : {1.0, 0.5, 0.0}) {
       Scene scene = gas(60, 3);
@@ -165,7 +165,7 @@ TEST(Restitution, MayBeAnyOfItsRange) {
 }
 
 // Each collapse in a cooling gas without a contact time is reported with pair, time and gap.
-TEST(Restitution, WithoutContactTimeEndsInAClearError) {
+TEST(Restitution, WithoutContactTimeEndsInAClearError_long) {
   for (const double epsilon : {0.0, 0.2, 0.6}) {
     for (const double beta : {-1.0, 0.0}) {
       Scene scene = gas(60, 4);
@@ -187,7 +187,7 @@ TEST(Restitution, WithoutContactTimeEndsInAClearError) {
   }
 }
 
-TEST(Density, MayBeTwoHundred) {
+TEST(Density, MayBeTwoHundred_long) {
   Scene scene = gas(1650 / thin, 2.02);
   const HardRun run =
       run_hard(scene, until_collisions(1), {.everywhere = false, .share = 0.02, .undecided = 2});
@@ -196,7 +196,7 @@ TEST(Density, MayBeTwoHundred) {
 }
 
 // To 1e-30 of the energy, at times of 1e15: the resolution of time is the same as at the start.
-TEST(LongTimes, EnergyFallsBy30Decades) {
+TEST(LongTimes, EnergyFallsBy30Decades_long) {
   Scene scene = gas(40, 3);
   scene.collisions.epsilon = 0.6;
   scene.collisions.tc_relative = 1e-3;
@@ -272,7 +272,7 @@ TEST(Scaling, BeyondTheRangeIsAClearErrorOrRight) {
   }
 }
 
-TEST(Subnormal, ComponentsChangeNothing) {
+TEST(Subnormal, ComponentsChangeNothing_long) {
   Random random(5);
   const double least = std::numeric_limits<double>::denorm_min();
   Scene scene = gas(60, 3);

@@ -262,12 +262,14 @@ TEST_P(SlidingCollapses, EndAsInQuadAThousandTimes) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Rules, SlidingCollapses,
-                         testing::Values(Figures{0.5, {1.9e-6, 6e-8, 1.8e-9}, 0.25},
-                                         Figures{0.8, {9e-6, 3e-7, 8e-9}, 0.21}),
-                         [](const auto& info) {
-                           return parameter_name({{"epsilon", info.param.epsilon}});
-                         });
+std::string figures_name(const testing::TestParamInfo<Figures>& info) {
+  return parameter_name({{"epsilon", info.param.epsilon}});
+}
+
+INSTANTIATE_TEST_SUITE_P(Rules_long, SlidingCollapses,
+                         testing::Values(Figures{0.5, {1.9e-6, 6e-8, 1.8e-9}, 0.25}), figures_name);
+INSTANTIATE_TEST_SUITE_P(Rules_slow, SlidingCollapses,
+                         testing::Values(Figures{0.8, {9e-6, 3e-7, 8e-9}, 0.21}), figures_name);
 
 }  // namespace
 }  // namespace needlework::test

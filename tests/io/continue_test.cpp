@@ -11,7 +11,7 @@
 namespace needlework::io {
 namespace {
 
-TEST_F(Continuing, AFileContinuesWhereItWasClosed) {
+TEST_F(Continuing, AFileContinuesWhereItWasClosed_long) {
   for (const Plan& plan : {small, large}) {
     const std::string path = file("part.h5"), full = file("full.h5");
     std::filesystem::remove(full);
@@ -36,7 +36,7 @@ TEST_F(Continuing, AFileContinuesWhereItWasClosed) {
   }
 }
 
-TEST_F(Continuing, RowsBeyondThePositionDoNotRemain) {
+TEST_F(Continuing, RowsBeyondThePositionDoNotRemain_long) {
   for (const Plan& plan : {small, large}) {
     const std::string path = file("stopped.h5");
     for (const int more : {0, 1, 4}) {

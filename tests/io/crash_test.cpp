@@ -90,7 +90,7 @@ Flushed write_until_killed(const std::string& path, std::size_t needles, int eve
   return flushed;
 }
 
-TEST_F(Crash, KillAtAnyMomentLeavesTheFlushedFrames) {
+TEST_F(Crash, KillAtAnyMomentLeavesTheFlushedFrames_long) {
   std::mt19937_64 random(7);
   for (int round = 0; round < 40; ++round) {
     const std::size_t needles = std::array{1u, 30u, 3000u}[round % 3];

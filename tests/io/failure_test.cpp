@@ -45,7 +45,7 @@ std::string write_to_full_disk(const std::string& folder, const std::string& pat
       });
 }
 
-TEST_F(Failing, AnyWriteMayFindTheDiskFull) {
+TEST_F(Failing, AnyWriteMayFindTheDiskFull_long) {
   for (const bool for_good : {true, false}) {
     int first = 0;
     int last_frame = -1;

@@ -12,7 +12,7 @@ namespace {
 
 // A program is killed in each of its writes in turn, and so is the one that continues, in its own
 // way. What they leave can be read, and the third program ends with the file of a whole run.
-TEST_F(Continuing, AKillInAnyWriteLosesNothing) {
+TEST_F(Continuing, AKillInAnyWriteLosesNothing_long) {
   const std::string path = file("killed.h5"), folder = folder_.string();
   for (const Plan& plan : {brief, large}) {
     std::filesystem::remove(file("full.h5"));
@@ -51,7 +51,7 @@ TEST_F(Continuing, AKillInAnyWriteLosesNothing) {
 }
 
 // The same for a file of which rows are removed, in each write in turn.
-TEST_F(Continuing, AKillWhileRowsAreRemovedLosesNothing) {
+TEST_F(Continuing, AKillWhileRowsAreRemovedLosesNothing_long) {
   const std::string path = file("killed.h5"), folder = folder_.string();
   for (const Plan& plan : {small, large}) {
     std::filesystem::remove(file("full.h5"));
@@ -112,7 +112,7 @@ TEST_F(Continuing, AFullDiskLosesNothing) {
   const Contents stopped = read_contents(file("stopped.h5"));
   const SharedCheckpoint checkpoint;
   for (const auto event : {Disk::Event::full, Disk::Event::full_once}) {
-    for (int at = 0;; at += 29) {
+    for (int at = 0;; at += 67) {
       SCOPED_TRACE(at);
       *checkpoint = beginning;
       std::filesystem::copy_file(file("stopped.h5"), path,

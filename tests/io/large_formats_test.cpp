@@ -12,7 +12,7 @@ namespace needlework::io {
 namespace {
 
 // A block of 1 MiB ends within a line, and the last frame begins within a block.
-TEST_F(Formats, FilesOfManyBlocksAreReadWhetherCompressedOrNot) {
+TEST_F(Formats, FilesOfManyBlocksAreReadWhetherCompressedOrNot_long) {
   const State last = make_state(3500, 2);
   for (const char* name : {"a.xyz", "a.dump", "a.data"}) {
     std::vector<State> frames{make_state(5000, 1), last};

@@ -453,7 +453,7 @@ TEST_F(Reading, WhatIsNotAWholeHdf5FileIsNamed) {
 
 // Every length from a bare signature on; the file is that of a killed program and that of a closed
 // one.
-TEST_F(Reading, FilesCutShortAreRefused) {
+TEST_F(Reading, FilesCutShortAreRefused_long) {
   const State state = make_state(40);
   Writer writer(file("whole.h5"), false, make_scene(40), {});
   for (int frame = 0; frame < 20; ++frame) writer.write_frame(make_totals(frame), state);

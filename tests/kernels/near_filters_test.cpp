@@ -88,7 +88,7 @@ TEST(Overlapping, LosesNoCapsulesThatOverlapAndFindsFewOthers) {
 
 // Thin capsules in small cells, so that places add little error. Where the square of the angle is
 // about the 2^-16 by which rounded directors put it off, only the margin of squares saves the pair.
-TEST(Overlapping, LosesNoCapsulesThatCrossAtSmallAngles) {
+TEST(Overlapping, LosesNoCapsulesThatCrossAtSmallAngles_long) {
   Random random(seed);
   constexpr double half = 0.5, side = 0.066;
   const WordFormat format = WordFormat::holding(0, side);

@@ -67,7 +67,7 @@ TEST(Range, OperationsOnNumbersAreTight) {
   }
 }
 
-TEST(Range, SineAndCosineEncloseThoseOfAllAngles) {
+TEST(Range, SineAndCosineEncloseThoseOfAllAngles_long) {
   test::Random random(33);
   for (int i = 0; i < range_count; ++i) {
     const double middle = random.uniform(-20, 20) * (random.coin() ? 1 : 100);

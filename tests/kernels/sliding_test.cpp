@@ -161,7 +161,7 @@ TEST_P(SlidingAgainstQuad, EndsAndMovesAsAContactHeldByAForce) {
 
 INSTANTIATE_TEST_SUITE_P(Bodies, SlidingAgainstQuad, testing::Values(alike, unlike));
 
-TEST(SlidingAgainstQuadAtLength, EndsAndMovesAsAContactHeldByAForce) {
+TEST(SlidingAgainstQuadAtLength, EndsAndMovesAsAContactHeldByAForce_long) {
   Contacts contacts;
   ASSERT_NO_FATAL_FAILURE(follow_all(alike, 1000, contacts));
   const std::size_t forces = that_end(SlidingEnd::Force, contacts).size();

@@ -50,7 +50,7 @@ std::optional<Found> sampled(const WallCase& a, double to, int steps) {
   return out;
 }
 
-TEST(WallContact, IsThatOfSamplingInQuad) {
+TEST(WallContact, IsThatOfSamplingInQuad_long) {
   DrawnWalls drawn(1);
   int contacts = 0, none = 0;
   for (int n = 0; n < 160; ++n) {

@@ -52,7 +52,7 @@ TEST(KickPower, IsExact) {
 }
 
 // Whatever collisions take meanwhile, which is a share of its own in the budget of energy.
-TEST(KickPower, IsExactForInelasticNeedles) {
+TEST(KickPower, IsExactForInelasticNeedles_long) {
   Scene scene = test::scene_of(400, 8, 4000);
   scene.collisions.epsilon = 0.7;
   scene.collisions.tc_relative = 1e-3;
@@ -74,14 +74,14 @@ TEST(KickPower, IsExactForInelasticNeedles) {
 }
 
 // The momentum that is taken off is a quarter of what kicks give to four needles.
-TEST(KickPower, IsExactForFewNeedles) {
+TEST(KickPower, IsExactForFewNeedles_long) {
   Scene scene = test::scene_of(4, 3, 1000);
   scene.initial.t_tr = scene.initial.t_rot = 0.01;
   scene.driving.kicks = {.every = 0.1, .translational = 1, .rotational = 0};
   expect_power(scene, 30000, 10);
 }
 
-TEST(KickPower, IsExactForMixtures) {
+TEST(KickPower, IsExactForMixtures_long) {
   Scene scene = test::scene_of(0, 5, 2000);
   scene.species = {
       {.name = "a", .count = 40, .length = 0.6, .mass = 0.5, .k = 3, .t_tr = 0.02, .t_rot = 0.02},
@@ -90,7 +90,7 @@ TEST(KickPower, IsExactForMixtures) {
   expect_power(scene, 8000, 10);
 }
 
-TEST(Thermostat, RelaxesExponentially) {
+TEST(Thermostat, RelaxesExponentially_long) {
   Scene scene = test::scene_of(300, 7, 300);
   scene.initial.t_tr = 0.5;
   scene.initial.t_rot = 2;  // E = 2.75
@@ -107,7 +107,7 @@ TEST(Thermostat, RelaxesExponentially) {
 }
 
 // It keeps no momentum, so that there is no factor (N - 1) / N, and all species are alike.
-TEST(Thermostat, GivesItsTemperatureToFewNeedles) {
+TEST(Thermostat, GivesItsTemperatureToFewNeedles_long) {
   Scene scene = test::scene_of(0, 4, 5000);
   scene.species = {{.name = "a", .count = 3, .mass = 0.5}, {.name = "b", .count = 1, .k = 2}};
   scene.driving.andersen = {.rate = 2, .temperature = 1.5};

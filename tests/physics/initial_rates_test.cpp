@@ -150,25 +150,33 @@ TEST_P(InitialRates, AreExact) {
 
 INSTANTIATE_TEST_SUITE_P(Smooth, InitialRates,
                          testing::Values(FreshGas{0.72, {6, 0.8, -1}, 1, 0.03, 3000, 10000},
-                                         FreshGas{0.72, {6, 0.8, -1}, 0, 0.03, 3000, 20000},
                                          FreshGas{3, {6, 0.5, -1}, 3, 0.05, 1000, 30000},
                                          FreshGas{20, {2, 0.5, -1}, 0.3, 0.1, 200, 40000}),
+                         gas_name);
+
+INSTANTIATE_TEST_SUITE_P(Smooth_long, InitialRates,
+                         testing::Values(FreshGas{0.72, {6, 0.8, -1}, 0, 0.03, 3000, 20000}),
                          gas_name);
 
 INSTANTIATE_TEST_SUITE_P(Rough, InitialRates,
                          testing::Values(FreshGas{0.72, {6, 0.8, 0.5}, 1, 0.03, 3000, 50000},
                                          FreshGas{3, {6, 1, 0}, 1, 0.05, 1000, 60000},
-                                         FreshGas{0.72, {2, 1, -0.5}, 3, 0.03, 3000, 70000},
-                                         FreshGas{0.72, {20, 0.5, 0.5}, 0, 0.03, 3000, 80000},
                                          FreshGas{20, {6, 0.8, -0.5}, 1, 0.1, 200, 90000}),
+                         gas_name);
+INSTANTIATE_TEST_SUITE_P(Rough_long, InitialRates,
+                         testing::Values(FreshGas{0.72, {2, 1, -0.5}, 3, 0.03, 3000, 70000},
+                                         FreshGas{0.72, {20, 0.5, 0.5}, 0, 0.03, 3000, 80000}),
                          gas_name);
 
 // Of other lengths and masses, whose species are looked up in a table.
-INSTANTIATE_TEST_SUITE_P(
-    OfLengthAndMass, InitialRates,
-    testing::Values(FreshGas{3, {6, 0.5, -1}, 3, 0.05, 1000, 100000, 0.37, 2.9},
-                    FreshGas{0.72, {2, 0.8, 0.5}, 1, 0.03, 3000, 110000, 13.7, 0.083}),
-    gas_name);
+INSTANTIATE_TEST_SUITE_P(OfLengthAndMass, InitialRates,
+                         testing::Values(FreshGas{
+                             3, {6, 0.5, -1}, 3, 0.05, 1000, 100000, 0.37, 2.9}),
+                         gas_name);
+INSTANTIATE_TEST_SUITE_P(OfLengthAndMass_long, InitialRates,
+                         testing::Values(FreshGas{
+                             0.72, {2, 0.8, 0.5}, 1, 0.03, 3000, 110000, 13.7, 0.083}),
+                         gas_name);
 
 }  // namespace
 }  // namespace needlework

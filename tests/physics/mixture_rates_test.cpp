@@ -141,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(
             800,
             1000},
         Mixture{
-            "dense_1_to_10",
+            "dense_1_to_10_long",
             {{.name = "a", .count = 150, .length = 3, .mass = 20, .k = 6, .t_tr = 2, .t_rot = 1},
              {.name = "b",
               .count = 1500,
@@ -161,7 +161,7 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Rough, MixtureAtTheStart,
     testing::Values(Mixture{
-        "three",
+        "three_long",
         {{.name = "a", .count = 500, .length = 1, .mass = 1, .k = 6, .t_tr = 1, .t_rot = 0.4},
          {.name = "b", .count = 1000, .length = 0.5, .mass = 3, .k = 3, .t_tr = 4, .t_rot = 2},
          {.name = "c", .count = 300, .length = 1.7, .mass = 1, .k = 10, .t_tr = 1, .t_rot = 2}},
@@ -179,7 +179,7 @@ INSTANTIATE_TEST_SUITE_P(
 // T_tr, and gives velocities of two needles a correlation that puts it back into their relative
 // velocity), at any density, times the factor of a fixed energy, 1 - 1/(4 D) with D = 5 N - 3.
 // Tolerance: 3 standard errors of batches of a run, at most 0.3 %.
-TEST(ElasticMixture, CollidesAtTheExactRates) {
+TEST(ElasticMixture, CollidesAtTheExactRates_long) {
   Scene scene = test::scene_of(0, 9, 17);
   scene.species = {{.name = "a", .count = 600, .length = 1, .mass = 1, .k = 6},
                    {.name = "b", .count = 1000, .length = 0.6, .mass = 2.5, .k = 3}};

@@ -83,7 +83,7 @@ std::ostream& operator<<(std::ostream& out, const RelaxingGas& gas) {
 class Relaxation : public testing::TestWithParam<RelaxingGas> {};
 
 // In 0.08 / lambda, a tenth of a mean free time of a dense gas, hardly any pair has met again.
-TEST_P(Relaxation, StartsAtItsRate) {
+TEST_P(Relaxation, StartsAtItsRate_long) {
   SCOPED_TRACE(GetParam());
   const double lambda = relaxation_rate(GetParam().k);
   const double difference = 0.5;  // T_tr = 1.2, T_rot = 0.7

@@ -87,7 +87,7 @@ class DiluteRods : public testing::TestWithParam<DiluteCase> {};
 
 TEST_P(DiluteRods, CollideAtTheExactRates) { expect_exact_rates(GetParam(), 8, 20, 0.04); }
 
-TEST_P(DiluteRods, CollideAtTheExactRatesToThreeThousandths) {
+TEST_P(DiluteRods, CollideAtTheExactRatesToThreeThousandths_slow) {
   const bool mixture = GetParam().species.size() > 1;
   expect_exact_rates(GetParam(), mixture ? 60 : 40, 100, mixture ? 0.012 : 0.003);
 }
@@ -166,7 +166,7 @@ TEST(DrawnRods, CollideAndCoolAtTheExactRates) {
   expect_exact_start({drawn_rods("rods", 5, 1, 1, 0.4, 20000)}, 1e-3, 40);
 }
 
-TEST(DrawnRods, CollideAndCoolAtTheExactRatesForEveryShape) {
+TEST(DrawnRods, CollideAndCoolAtTheExactRatesForEveryShape_long) {
   expect_exact_start({drawn_rods("spheres", 0, 1, 1, 0, 20000)}, 1e-3, 100);
   expect_exact_start({drawn_rods("rods", 1, 1, 1, 0.4, 20000)}, 1e-3, 100);
   expect_exact_start({drawn_rods("rods", 5, 1, 1, 0.4, 20000)}, 1e-3, 150);
@@ -218,7 +218,7 @@ TEST(RodContacts, HaveExponentialEnergiesAtEveryDensity) {
   }
 }
 
-TEST(RodContacts, HaveExponentialEnergiesInMillionsOfCollisions) {
+TEST(RodContacts, HaveExponentialEnergiesInMillionsOfCollisions_long) {
   for (const auto& [length, packing] :
        {std::pair(5.0, 0.01), std::pair(5.0, 0.2), std::pair(5.0, 0.4), std::pair(0.0, 0.45)}) {
     expect_exponential(length, packing, 4000);

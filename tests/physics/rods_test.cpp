@@ -89,7 +89,7 @@ void expect_virial_pressure(int seeds, double collisions, double largest_error) 
 
 TEST(RodPressure, IsThatOfTheVirialSeries) { expect_virial_pressure(5, 250, 0.02); }
 
-TEST(RodPressure, IsThatOfTheVirialSeriesToSomeThousandths) {
+TEST(RodPressure, IsThatOfTheVirialSeriesToSomeThousandths_long) {
   expect_virial_pressure(6, 2000, 0.004);
 }
 
@@ -117,7 +117,7 @@ void expect_pressure_of_others(int seeds, double collisions, double largest_erro
 
 TEST(RodPressure, OfDenseFluidsIsThatOfOthers) { expect_pressure_of_others(3, 150, 0.03, false); }
 
-TEST(RodPressure, OfDenseFluidsIsThatOfOthersToSomeThousandths) {
+TEST(RodPressure, OfDenseFluidsIsThatOfOthersToSomeThousandths_slow) {
   expect_pressure_of_others(6, 2000, 0.005, true);
 }
 

@@ -91,7 +91,7 @@ Averages averages_of(const Scene& scene, double relaxed, double every, int sampl
   return out;
 }
 
-TEST(WallProfilesOfAnElasticGas, AreExactBetweenWalls) {
+TEST(WallProfilesOfAnElasticGas, AreExactBetweenWalls_long) {
   constexpr double count = 300, side = 6, height = 3;
   constexpr std::size_t slabs = 24, half = slabs / 2;
   constexpr double room = height - 0.5, temperature = 5 * count / (5 * count - 2);
@@ -137,7 +137,7 @@ TEST(WallProfilesOfAnElasticGas, AreExactBetweenWalls) {
 }
 
 // Above a floor, where the force on it is N m g, and no needle is lost above the box.
-TEST(WallProfilesOfAnElasticGas, AreExactAboveAFloor) {
+TEST(WallProfilesOfAnElasticGas, AreExactAboveAFloor_long) {
   constexpr double count = 300, side = 9, pull = 1;
   constexpr std::size_t low = 16;  // slabs compared one by one
   std::vector<Mean> density(low);

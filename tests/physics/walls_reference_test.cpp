@@ -249,7 +249,7 @@ void expect_same_events(const Scene& scene, std::size_t count) {
   EXPECT_LT(hits, count);
 }
 
-TEST(WallsStepByStep, OfNeedlesBetweenTwoWalls) {
+TEST(WallsStepByStep, OfNeedlesBetweenTwoWalls_long) {
   for (const std::uint64_t seed : {1u, 2u}) {
     Scene scene = test::scene_of(6, 3, seed);
     scene.needles.box[2] = 2;
@@ -258,7 +258,7 @@ TEST(WallsStepByStep, OfNeedlesBetweenTwoWalls) {
   }
 }
 
-TEST(WallsStepByStep, OfRoughNeedlesOnAFloor) {
+TEST(WallsStepByStep, OfRoughNeedlesOnAFloor_long) {
   for (const std::uint64_t seed : {1u, 2u}) {
     Scene scene = test::scene_of(6, 3, seed);
     scene.collisions.epsilon = 0.9;

@@ -42,7 +42,7 @@ AtWalls exact_at_walls(double height, double k) {
   return {mean_speed / std::sqrt(2 * std::numbers::pi) / room, 1 / room};
 }
 
-TEST(WallPressure, IsThatOfTheIdealGasOfNeedles) {
+TEST(WallPressure, IsThatOfTheIdealGasOfNeedles_long) {
   for (const auto& [height, k] : {std::pair(2.0, 6.0), std::pair(1.25, 2.0)}) {
     const AtWalls exact = exact_at_walls(height, k);
     if (k == 6) {
@@ -127,11 +127,11 @@ void expect_rates_of_each_two_species(double time, double error) {
   }
 }
 
-TEST(PairsBetweenWalls, CollideAtTheRatesOfEachTwoSpecies) {
+TEST(PairsBetweenWalls, CollideAtTheRatesOfEachTwoSpecies_long) {
   expect_rates_of_each_two_species(40, 0.007);
 }
 
-TEST(PairsBetweenWalls, CollideAtTheseRatesToThousandths) {
+TEST(PairsBetweenWalls, CollideAtTheseRatesToThousandths_long) {
   expect_rates_of_each_two_species(320, 0.003);
 }
 
@@ -191,14 +191,14 @@ void expect_barometric_density(std::uint64_t count, double side, double error) {
   EXPECT_LT(force.measured().error, 0.003);
 }
 
-TEST(NeedlesOnAFloor, HaveTheBarometricDensity) { expect_barometric_density(500, 14, 0.01); }
+TEST(NeedlesOnAFloor, HaveTheBarometricDensity_long) { expect_barometric_density(500, 14, 0.01); }
 
-TEST(NeedlesOnAFloor, HaveTheBarometricDensityToThousandths) {
+TEST(NeedlesOnAFloor, HaveTheBarometricDensityToThousandths_long) {
   expect_barometric_density(3000, 14 * std::sqrt(6.0), 0.003);
 }
 
 // Walls of two temperatures alike bring an inelastic-free gas to theirs.
-TEST(ThermalWalls, BringTheGasToTheirTemperature) {
+TEST(ThermalWalls, BringTheGasToTheirTemperature_long) {
   constexpr double wall = 2.5;
   Mean t_tr, t_rot, elastic_hits;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
@@ -260,9 +260,9 @@ void expect_balance_of_heat(double time, double error) {
   }
 }
 
-TEST(ThermalWalls, CarryHeatFromTheHotOneToTheCold) { expect_balance_of_heat(60, 0.02); }
+TEST(ThermalWalls, CarryHeatFromTheHotOneToTheCold_long) { expect_balance_of_heat(60, 0.02); }
 
-TEST(ThermalWalls, CarryHeatToThousandths) { expect_balance_of_heat(500, 0.003); }
+TEST(ThermalWalls, CarryHeatToThousandths_long) { expect_balance_of_heat(500, 0.003); }
 
 }  // namespace
 }  // namespace needlework

@@ -220,7 +220,7 @@ TEST(Oracle, AgreesWithItselfAtAHundredDigits) {
   }
 }
 
-TEST(Oracle, DoublesSettleOnlyWhatIsClear) {
+TEST(Oracle, DoublesSettleOnlyWhatIsClear_long) {
   for (const PairFamily& family : pair_families()) {
     SCOPED_TRACE(family.name);
     int settled = 0;

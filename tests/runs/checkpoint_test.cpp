@@ -138,7 +138,7 @@ TEST_F(CheckpointFile, BeforeTheNewestIsUsedWhenThatCannotBeRead) {
   EXPECT_THROW(files.latest(), IoError);
 }
 
-TEST_F(CheckpointFile, CutShortAtAnyByteIsDamaged) {
+TEST_F(CheckpointFile, CutShortAtAnyByteIsDamaged_long) {
   files.write(sample(1));
   const std::string whole = bytes();
   for (std::size_t size = 0; size < whole.size(); ++size) {
@@ -149,7 +149,7 @@ TEST_F(CheckpointFile, CutShortAtAnyByteIsDamaged) {
   EXPECT_NE(complaint().find(": damaged: "), std::string::npos);
 }
 
-TEST_F(CheckpointFile, WithAnyByteChangedIsDamaged) {
+TEST_F(CheckpointFile, WithAnyByteChangedIsDamaged_long) {
   files.write(sample(1));
   const std::string whole = bytes();
   for (std::size_t n = 0; n < whole.size(); ++n) {

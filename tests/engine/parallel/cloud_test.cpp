@@ -32,7 +32,7 @@ State cloud(const Scene& scene) {
   return state;
 }
 
-TEST(Cloud, IsFollowedAsItSpreads) {
+TEST(Cloud, IsFollowedAsItSpreads_long) {
   Scene scene = test::scene_of(1000, 25);
   const State state = cloud(scene);
   const auto until = until_collisions(150 / thin);
@@ -164,7 +164,7 @@ TEST(Loops, MayFollowEachOtherAtOneInstant) {
 
 // A collapse of three needles or more is detected by the number of collisions at one instant, also
 // if several loops have counted them.
-TEST(Loops, CountTogetherWhatHappensAtOneInstant) {
+TEST(Loops, CountTogetherWhatHappensAtOneInstant_long) {
   Scene scene = test::scene_of(60, 4, 6);
   scene.collisions.epsilon = 0.6;
   scene.collisions.beta = 0;

@@ -49,7 +49,7 @@ std::string hash_of(const Scene& scene) {
 
 // Two simulations run at once in two threads, which meet after each step, so that neither is done
 // before the other begins.
-TEST(HostThreads, RunSimulationsOnDifferentInstructionSets) {
+TEST(HostThreads, RunSimulationsOnDifferentInstructionSets_long) {
   const std::vector<kernels::Isa> available = kernels::available();
   for (const int threads : {1, 2}) {
     for (const kernels::Isa isa : available) {

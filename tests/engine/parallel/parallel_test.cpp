@@ -55,24 +55,24 @@ TEST_P(ParallelRun, IsThatOfOneThread) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, ParallelRun,
-    testing::Values(Case{"dilute", 2000, {14, 14, 14}, 1, -1, 0, 6, 10000},
-                    Case{"dense", 4000, {7, 7, 7}, 1, -1, 0, 6, 10000},
+    testing::Values(Case{"dilute_long", 2000, {14, 14, 14}, 1, -1, 0, 6, 10000},
+                    Case{"dense_long", 4000, {7, 7, 7}, 1, -1, 0, 6, 10000},
                     Case{"very_dense", 2000, {2.7, 2.7, 2.7}, 1, -1, 0, 6, 4000},
                     Case{"cooling", 2000, {9, 9, 9}, 0.8, -1, 1e-3, 6, 10000},
                     Case{"strongly_cooling", 1000, {8, 8, 8}, 0.4, -1, 1e-2, 6, 10000},
                     Case{"rough", 1000, {10, 10, 10}, 0.9, 0.4, 1e-3, 6, 4000},
-                    Case{"swift_rotation", 1000, {10, 10, 10}, 1, -1, 0, 50, 4000},
+                    Case{"swift_rotation_long", 1000, {10, 10, 10}, 1, -1, 0, 50, 4000},
                     Case{"slab", 1000, {30, 2.01, 9}, 1, -1, 0, 6, 4000},
                     Case{"thread", 500, {200, 2.01, 2.01}, 0.9, -1, 1e-3, 6, 2000},
                     Case{"least_box", 300, {2.01, 2.01, 2.01}, 1, -1, 0, 6, 2000},
                     Case{"very_dilute", 300, {30, 30, 30}, 1, -1, 0, 6, 1000},
-                    Case{"rare", 4000, {60, 60, 60}, 0.9, -1, 1e-3, 6, 5000},
+                    Case{"rare_long", 4000, {60, 60, 60}, 0.9, -1, 1e-3, 6, 5000},
                     Case{"two_needles", 2, {2.01, 2.01, 2.01}, 1, -1, 0, 6, 600}),
     [](const auto& info) { return std::string(info.param.name); });
 
 // The system schedules the threads, so a run is repeated, more often in a build in which threads
 // yield at random.
-TEST(Parallel, IsTheSameEveryTime) {
+TEST(Parallel, IsTheSameEveryTime_long) {
   Scene scene = scene_of({"", 1000, {6, 6, 6}, 0.9, -1, 1e-3, 6, 0});
   scene.engine.threads = 1;
   const std::string truth = test::record(scene, 700).hash;
@@ -126,7 +126,7 @@ TEST(Parallel, UsesItsThreads) {
   EXPECT_GT(counters.sorts, 0u);      // which divides the box again
 }
 
-TEST(Parallel, StopsWhereOneThreadStops) {
+TEST(Parallel, StopsWhereOneThreadStops_long) {
   Scene scene = scene_of({"", 1000, {8, 8, 8}, 0.8, -1, 1e-3, 6, 0});
   const auto stops = [&](int threads) {
     scene.engine.threads = threads;
@@ -188,7 +188,7 @@ TEST(Parallel, EndsAtTheNextCollision) {
 // A run that is advanced in many short steps, as the program does, does not repeat a phase that has
 // been rolled back. Needles that slide, with many more collisions than in thermal flight, do not
 // make a phase endless.
-TEST(Parallel, RollsBackAPhaseOnlyOnce) {
+TEST(Parallel, RollsBackAPhaseOnlyOnce_long) {
   Scene scene = scene_of({"", 2000, {7, 7, 7}, 0.6, -1, 1e-3, 6, 0});
   scene.initial.t_rot = 0;
   const auto run = [&](int threads, double wall) {
@@ -251,7 +251,7 @@ TEST(Parallel, StaysTogetherInTimeInALongBox) {
 }
 
 // Scenes so small that one thread usually computes them alone.
-TEST(Parallel, HasTheSameTrajectoryForFewNeedles) {
+TEST(Parallel, HasTheSameTrajectoryForFewNeedles_long) {
   for (const Case& c : {Case{"", 2, {2.01, 2.01, 2.01}, 1, -1, 0, 6, 300},
                         Case{"", 20, {3, 3, 3}, 0.9, 0.2, 1e-2, 6, 1000},
                         Case{"", 100, {4, 4, 4}, 0.8, -1, 1e-3, 6, 2000}}) {

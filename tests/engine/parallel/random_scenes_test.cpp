@@ -107,7 +107,7 @@ End run(Drawn drawn, int threads, double slice, Counters& counters) {
   return {stop, totals.collisions, simulation.trajectory_hash(), totals.time, totals.energy};
 }
 
-TEST(RandomScenes, EndAsOnOneThread) {
+TEST(RandomScenes, EndAsOnOneThread_long) {
   const char* asked = std::getenv("NEEDLEWORK_RANDOM_SCENES");
   const int scenes = asked ? std::atoi(asked) : static_cast<int>(40 / test::thin);
   Counters counters;
