@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Installs the Debian 12 packages that are missing, checks the formatting, builds everything, and
-# runs all tests but those that .ci/run adds and those that take hours.
+# Installs the packages of Debian 12 or 13 that are missing, builds the program and its tests, and runs
+# all but those that .ci/run adds and those that take hours.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source cmake/setup.sh
 
-install_packages build mpi python tests benchmarks
-find . -name build -prune -o \( -name '*.h' -o -name '*.cpp' \) -print0 |
-  xargs -0 clang-format --dry-run -Werror
+echo "Building the program and its tests and running them takes ten minutes of two cores, less after"
+echo "the first time; installing packages comes first."
+install_packages build mpi python tests
 configure_release ON
 cmake --build --preset release
-ctest --preset release --parallel "$(nproc)"
+run_tests release

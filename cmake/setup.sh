@@ -77,7 +77,43 @@ install_packages() {
   return 1
 }
 
-# configure_release ON|OFF: with or without tests and benchmarks.
+# configure_release ON|OFF [ON|OFF]: with or without tests, with or without benchmarks (without).
 configure_release() {
-  run_quietly cmake --preset release -DNEEDLEWORK_TESTS="$1" -DNEEDLEWORK_BENCH="$1"
+  run_quietly cmake --preset release -DNEEDLEWORK_TESTS="$1" -DNEEDLEWORK_BENCH="${2:-OFF}"
+}
+
+# Prints the name of clang-format 14: other versions format otherwise. Fails if it is not installed.
+find_clang_format() {
+  local program
+  for program in clang-format-14 clang-format; do
+    if [[ $("$program" --version 2>/dev/null) == *" version 14."* ]]; then
+      echo "$program"
+      return
+    fi
+  done
+  return 1
+}
+
+# run_tests PRESET: runs the tests of a preset of ctest on all cores. Shows where it is, in one line on
+# a terminal and otherwise at each tenth, and the tests that fail.
+run_tests() {
+  local ctest=(ctest --preset "$1" --parallel "$(nproc)")
+  if [[ -t 1 ]]; then
+    "${ctest[@]}" --progress
+    return
+  fi
+  "${ctest[@]}" | awk '
+    /^ *Start +[0-9]+: / { next }
+    match($0, /^ *[0-9]+\/[0-9]+ Test /) {
+      split(substr($0, RSTART, RLENGTH), part, /[\/ ]+/)
+      done = part[1] == "" ? part[2] : part[1]
+      all = part[1] == "" ? part[3] : part[2]
+      if (int(10 * done / all) > tenth) {
+        tenth = int(10 * done / all)
+        printf "%d of %d tests have run.\n", done, all
+        fflush()
+      }
+      if (/ Passed +[0-9.]+ sec$/) next
+    }
+    { print; fflush() }'
 }
