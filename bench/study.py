@@ -87,7 +87,7 @@ def case_table(content):
             rows.append([case["scene"], engine, case["search"], us(case), times(case, cases[0]), bytes_of(case),
                          spread(case["setup_s"])])
     return table(["scene", "search/calendar/ISA", "search in use", "us per collision",
-                  "times baseline", "bytes per needle", "set-up s"], rows)
+                  "speed-up", "bytes per needle", "set-up s"], rows)
 
 
 def baselines_first(content):
@@ -112,7 +112,7 @@ def density_table(content):
                      times(auto, cases["baseline"])])
     wide = [cost_here for density, cost_here in cost.items() if 0.49 < density < 51]
     text = table(["n L^3", "baseline", "linked-cells", "capsules", "auto", "which is",
-                  "auto over best by hand", "times baseline"], rows)
+                  "auto over best by hand", "speed-up"], rows)
     return (text + f"\nGreatest over least median of `auto`, n L^3 = 0.5 to 50: "
             f"{number(max(wide) / min(wide))}.\n")
 
@@ -124,7 +124,7 @@ def size_table(content):
         cost[auto["needles"], round(auto["density"], 2)] = auto["us_per_collision"]
         rows.append([auto["needles"], number(auto["density"]), us(baseline), us(auto),
                      times(auto, baseline), bytes_of(auto), spread(auto["setup_s"])])
-    text = table(["needles", "n L^3", "baseline", "auto", "times baseline", "bytes per needle",
+    text = table(["needles", "n L^3", "baseline", "auto", "speed-up", "bytes per needle",
                   "set-up s"], rows)
     ratio = spread(quotients(cost[10**6, 0.72], cost[10**4, 0.72]))
     return text + f"\nCost at 1e6 needles over that at 1e4, n L^3 = 0.72: {ratio}.\n"
@@ -158,7 +158,7 @@ def matrix_table(content):
                          spread(quotients(mine["us_per_collision"], best["us_per_collision"]))
                          if better else "", us(baseline), times(mine, baseline)])
     return table(["scene", "search", *calendars, "tournament over best", "baseline",
-                  "tournament, times baseline"], rows)
+                  "tournament, speed-up"], rows)
 
 
 def kernel_table(content):

@@ -248,6 +248,7 @@ std::string Case::name() const {
   if (engine.storage != "sorted") name += "/" + engine.storage;
   if (engine.cell_side) name += fmt::format("/side:{:.3g}", *engine.cell_side);
   if (engine.capsule_radius) name += fmt::format("/radius:{:.3g}", *engine.capsule_radius);
+  if (!setting.empty()) name += "/" + setting;
   return name;
 }
 
@@ -259,7 +260,8 @@ const std::vector<NameParts::Named> NameParts::all{{"scene", &NameParts::scene},
                                                    {"threads", &NameParts::threads},
                                                    {"storage", &NameParts::storage},
                                                    {"cell_side", &NameParts::cell_side},
-                                                   {"capsule_radius", &NameParts::capsule_radius}};
+                                                   {"capsule_radius", &NameParts::capsule_radius},
+                                                   {"setting", &NameParts::setting}};
 
 NameParts parts_of(const std::string& name) {
   NameParts out;
@@ -277,6 +279,9 @@ NameParts parts_of(const std::string& name) {
       out.cell_side = value_of("side:");
     } else if (word.starts_with("radius:")) {
       out.capsule_radius = value_of("radius:");
+    } else if (word.find('=') != word.npos) {  // the last part, whose value may have any sign
+      std::string rest;
+      out.setting = std::getline(words, rest, '\0') ? word + '/' + rest : word;
     } else {
       out.storage = word;
     }

@@ -16,15 +16,19 @@ struct Case {
   Scene scene;
   double filled = 1;  ///< fraction of each edge of the box in which needles start
   bool is_baseline = false;
+  std::string setting = {};  ///< "SECTION.KEY=VALUE" that differs from the scene; "" if none does
   std::shared_ptr<const State> initial = {};  ///< null: drawn
 
-  /// SCENE/SEARCH/CALENDAR/ACCURACY/ISA/threads:N, as asked for, and other settings.
+  /// SCENE/SEARCH/CALENDAR/ACCURACY/ISA/threads:N, as asked for, and other settings, the one of
+  /// the scene last.
   std::string name() const;
 };
 
 /// The parts of a case's name, empty where it has none.
 struct NameParts {
-  std::string scene, search, queue, accuracy, isa, threads, storage, cell_side, capsule_radius;
+  std::string scene, search, queue, accuracy, isa, threads, storage, cell_side, capsule_radius,
+      setting;
+  bool operator==(const NameParts&) const = default;
 
   struct Named {
     const char* name;

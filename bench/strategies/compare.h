@@ -34,11 +34,14 @@ struct Comparison {
   bool differs = false;  ///< whether a case became faster or slower
 };
 
-/// Throws InputError if no case is in both. Only names are used.
+/// Throws InputError if no case is in both, and no two differ in one part of their names alone.
+/// Only names are used.
 void require_common_case(const Results& before, const Results& after);
 /// What may have changed the costs besides the code: machine, compiler, flags. One line for each.
 std::vector<std::string> unlike(const Results& before, const Results& after);
-/// Compares all cases that are in both.
+/// Compares all cases that are in both. If none is, but the cases of both differ in one part of
+/// their names alone, such as the accuracy, the cases that else have the same name are compared, by
+/// the times themselves, as the baselines differ as well.
 Comparison compare(const Results& before, const Results& after);
 
 }  // namespace needlework::bench

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "needlework/error.h"
@@ -22,11 +23,14 @@ struct Choice {
 };
 
 Value value_of(const std::string& text) {
-  std::int64_t number = 0;
   const char* const end = text.data() + text.size();
-  const auto read = std::from_chars(text.data(), end, number);
-  if (read.ec == std::errc() && read.ptr == end) return {number};
-  return {text};
+  const auto read = [&](auto number) -> std::optional<Value> {
+    const auto done = std::from_chars(text.data(), end, number);
+    if (done.ec == std::errc() && done.ptr == end) return Value{number};
+    return std::nullopt;
+  };
+  if (const auto whole = read(std::int64_t{})) return *whole;
+  return read(double{}).value_or(Value{text});
 }
 
 void set(Scene& scene, const Choice& choice, const std::string& text) {
@@ -60,23 +64,25 @@ std::vector<Scene> combinations(const Scene& scene, const std::vector<Choice>& c
 OwnCases cases_of(const OwnScene& own) {
   std::vector<Choice> choices{{"--searches", "search", own.searches},
                               {"--queues", "queue", own.calendars},
+                              {"--accuracy", "accuracy", own.accuracies},
                               {"--isa", "isa", own.isas},
-                              {"--threads", "threads", own.threads}};
-  if (std::all_of(choices.begin(), choices.end(),
-                  [](const Choice& choice) { return choice.values.empty(); })) {
+                              {"--threads", "threads", own.threads},
+                              {"--cell-sides", "cell_side", own.cell_sides},
+                              {"--capsule-radii", "capsule_radius", own.capsule_radii}};
+  if (own.settings.empty() && std::all_of(choices.begin(), choices.end(), [](const Choice& choice) {
+        return choice.values.empty();
+      })) {
     choices[0].values = {"linked-cells", "capsules"};
   }
-  runs::LoadedScene loaded = cli::load_scene(
-      {.path = own.file, .overrides = own.overrides, .engine = {}, .provided = {.end = true}});
-  const std::shared_ptr<const State> initial =
-      loaded.initial ? std::make_shared<const State>(*std::move(loaded.initial)) : nullptr;
 
   OwnCases out;
   std::vector<std::string> names;
-  const auto add = [&](Scene scene) {
+  const auto add = [&](Scene scene, const std::string& setting,
+                       const std::shared_ptr<const State>& initial) {
     scene.engine.isa = runs::resolved_isa(scene.engine);
     Case one{.scene_name = std::filesystem::path(own.file).stem().string(),
              .scene = std::move(scene),
+             .setting = setting,
              .initial = initial};
     const std::string name = one.name();
     if (std::find(names.begin(), names.end(), name) != names.end()) return;
@@ -88,12 +94,22 @@ OwnCases cases_of(const OwnScene& own) {
     runs::choose_engine(one.scene);
     out.cases.push_back(std::move(one));
   };
-  add(loaded.scene);
-  out.cases.front().is_baseline = true;
-  for (Scene& scene : combinations(loaded.scene, choices)) {
-    if (scene.engine.threads_by_size) runs::choose_engine(scene);
-    add(std::move(scene));
+  std::vector<std::string> settings{""};
+  settings.insert(settings.end(), own.settings.begin(), own.settings.end());
+  for (const std::string& setting : settings) {
+    std::vector<std::string> overrides = own.overrides;
+    if (!setting.empty()) overrides.push_back(setting);
+    runs::LoadedScene loaded = cli::load_scene(
+        {.path = own.file, .overrides = overrides, .engine = {}, .provided = {.end = true}});
+    const std::shared_ptr<const State> initial =
+        loaded.initial ? std::make_shared<const State>(*std::move(loaded.initial)) : nullptr;
+    add(loaded.scene, setting, initial);
+    for (Scene& scene : combinations(loaded.scene, choices)) {
+      if (scene.engine.threads_by_size) runs::choose_engine(scene);
+      add(std::move(scene), setting, initial);
+    }
   }
+  out.cases.front().is_baseline = true;
   return out;
 }
 

@@ -48,16 +48,16 @@ Json json_of_parts(const std::string& name) {
 }
 
 Json json_of_case(const Results& results, const CaseResult& result) {
-  const TimesBaseline times = times_baseline(results, result);
+  const Speedup factor = speedup(results, result);
   Json out = {{"name", result.name}};
   out.update(json_of_parts(result.name));
   out.update({{"baseline", result.is_baseline},
               {"us_per_collision", result.us_per_collision},
               {"best_us_per_collision", result.least()},
               {"median_us_per_collision", result.median()},
-              {"times_baseline", times.median},
-              {"times_baseline_low", cli::number(times.low)},
-              {"times_baseline_high", cli::number(times.high)}});
+              {"speedup", factor.median},
+              {"speedup_low", cli::number(factor.low)},
+              {"speedup_high", cli::number(factor.high)}});
   out.update(result.details);
   return out;
 }
@@ -67,6 +67,9 @@ CaseResult case_from(const Json& json) {
   json.at("name").get_to(out.name);
   json.at("baseline").get_to(out.is_baseline);
   json.at("us_per_collision").get_to(out.us_per_collision);
+  for (const char* key : {"search", "queue"}) {
+    if (json.contains(key)) out.details[key] = json.at(key).get<std::string>();
+  }
   const std::string place = out.name + ": us_per_collision";
   require(!out.us_per_collision.empty(), place + " is empty: expected at least one repetition");
   for (const double us : out.us_per_collision) {
@@ -108,9 +111,9 @@ double CaseResult::least() const { return *std::ranges::min_element(us_per_colli
 double CaseResult::most() const { return *std::ranges::max_element(us_per_collision); }
 double CaseResult::median() const { return bench::median(us_per_collision); }
 
-TimesBaseline times_baseline(const Results& results, const CaseResult& result) {
+Speedup speedup(const Results& results, const CaseResult& result) {
   std::vector<double> costs = relative_costs(results, result);
-  TimesBaseline out{1 / median(costs), std::nan(""), std::nan("")};
+  Speedup out{1 / median(costs), std::nan(""), std::nan("")};
   std::sort(costs.begin(), costs.end());
   // The greatest n such that not more than n values are below the median in 2.5 % of all cases.
   const std::size_t count = costs.size();
@@ -214,8 +217,8 @@ std::string csv_of(const Results& results) {
   for (const NameParts::Named& each : NameParts::all) keys.push_back(each.name);
   for (const char* key :
        {"search", "queue", "needles", "density", "baseline", "median_us_per_collision",
-        "best_us_per_collision", "worst_us_per_collision", "times_baseline", "times_baseline_low",
-        "times_baseline_high", "repetitions", "clock"}) {
+        "best_us_per_collision", "worst_us_per_collision", "speedup", "speedup_low", "speedup_high",
+        "repetitions", "clock"}) {
     keys.push_back(key);
   }
   std::string out = fmt::format("{}\n", fmt::join(keys, ","));
@@ -241,6 +244,9 @@ std::string compact_text(const Results& results) {
   for (const CaseResult& result : results.cases) {
     Json line = {{"name", result.name}};
     line.update(json_of_parts(result.name));
+    for (const char* key : {"search", "queue"}) {
+      if (result.details.contains(key)) line[key] = result.details[key];
+    }
     line["baseline"] = result.is_baseline;
     line["us_per_collision"] = result.us_per_collision;
     std::vector<std::string> fields;
@@ -280,20 +286,20 @@ std::string table_of(const Results& results) {
   for (const CaseResult& result : results.cases) width = std::max(width, result.name.size());
   // Where it fits, and there are enough repetitions.
   constexpr std::size_t columns = 100, of_numbers = 39;
-  const bool with_interval = width + of_numbers <= columns &&
-                             !std::isnan(times_baseline(results, results.cases.front()).low);
-  out += fmt::format("\n{:{}} {:>17} {:>8}\n{:{}} {:>6} {:>10} {:>8}{}\n", "", width,
-                     "us per collision", "times", "case", width, "median", "range", "baseline",
+  const bool with_interval =
+      width + of_numbers <= columns && !std::isnan(speedup(results, results.cases.front()).low);
+  out += fmt::format("\n{:{}} {:>17}\n{:{}} {:>6} {:>10} {:>8}{}\n", "", width, "us per collision",
+                     "case", width, "median", "range", "speed-up",
                      with_interval ? fmt::format(" {:>11}", "95 %") : "");
   for (const CaseResult& result : results.cases) {
-    const TimesBaseline times = times_baseline(results, result);
+    const Speedup factor = speedup(results, result);
     const std::string range =
         fmt::format("{}-{}", three_digits(result.least()), three_digits(result.most()));
     out += fmt::format("{:{}} {:>6} {:>10} {:>8}", result.name, width,
-                       three_digits(result.median()), range, three_digits(times.median));
+                       three_digits(result.median()), range, three_digits(factor.median));
     if (with_interval) {
       out += fmt::format(" {:>11}",
-                         fmt::format("{}-{}", three_digits(times.low), three_digits(times.high)));
+                         fmt::format("{}-{}", three_digits(factor.low), three_digits(factor.high)));
     }
     out += '\n';
   }

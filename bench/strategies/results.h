@@ -10,7 +10,8 @@
 
 namespace needlework::bench {
 
-/// One case. A compact file stores name, is_baseline and us_per_collision.
+/// One case. A compact file stores name, is_baseline, us_per_collision, and which search and
+/// calendar did the work.
 struct CaseResult {
   std::string name;  ///< of the case; begins with the name of its scene and '/'
   bool is_baseline = false;
@@ -18,7 +19,8 @@ struct CaseResult {
   /// time if the clock of the results is the wall's.
   std::vector<double> us_per_collision;
   std::string warm_up_hash;
-  /// All other measured values, for --json only; empty in results that were read from a file.
+  /// All other measured values, for --json only; of results that were read from a file, search and
+  /// queue alone, if it has them.
   nlohmann::ordered_json details = nlohmann::ordered_json::object();
 
   std::string scene() const;
@@ -43,13 +45,13 @@ std::vector<double> relative_costs(const Results& results, const CaseResult& res
 
 double median(std::vector<double> values);
 
-/// How many times less than its baseline a case takes: the median over repetitions, and two values
-/// between which the true median lies in 95 of 100 cases or more, by the sign test. They are NaN
-/// for fewer than six repetitions.
-struct TimesBaseline {
+/// Time of the baseline over that of the case, so that 2 is twice as fast: the median over
+/// repetitions, and two values between which the true median lies in 95 of 100 cases or more, by
+/// the sign test. They are NaN for fewer than six repetitions.
+struct Speedup {
   double median, low, high;
 };
-TimesBaseline times_baseline(const Results& results, const CaseResult& result);
+Speedup speedup(const Results& results, const CaseResult& result);
 
 /// Whether times are wall times, as they are where cases have different numbers of threads.
 bool by_wall_clock(const Results& results);

@@ -5,8 +5,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <ctime>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -71,15 +73,19 @@ Json about(const BenchArguments& arguments) {
           {"warm_up_collisions_per_needle", bench::warm_up}};
 }
 
-// Strategies differ, trajectories do not: else what is fast may be wrong.
+// Strategies differ, trajectories do not: else what is fast may be wrong. Those of levels of
+// accuracy may, and those of other settings do.
 void require_same_trajectories(const bench::Results& results) {
+  using Scene = std::array<std::string, 3>;
+  std::map<Scene, const bench::CaseResult*> firsts;
   for (const bench::CaseResult& result : results.cases) {
-    const std::string& expected = results.baseline_of(result).warm_up_hash;
-    if (result.warm_up_hash != expected) {
+    const bench::NameParts parts = bench::parts_of(result.name);
+    const bench::CaseResult& first =
+        *firsts.try_emplace({parts.scene, parts.accuracy, parts.setting}, &result).first->second;
+    if (result.warm_up_hash != first.warm_up_hash) {
       throw InvalidStateError(
-          fmt::format("{}: trajectory {}: expected {}, that of the baseline; this is a defect of "
-                      "the program",
-                      result.name, result.warm_up_hash, expected));
+          fmt::format("{}: trajectory {}: expected {}, that of {}; this is a defect of the program",
+                      result.name, result.warm_up_hash, first.warm_up_hash, first.name));
     }
   }
 }

@@ -72,19 +72,29 @@ void add_own_scene(CLI::App& command, CLI::Option& subset, bench::OwnScene& own)
         ->needs(scene);
   };
   add_list("--searches", own.searches,
-           "searches to compare with what the scene says, which is the baseline; without any list, "
-           "linked-cells and capsules",
+           "searches to compare with what the scene says, which is the baseline; where nothing is "
+           "to be compared, linked-cells and capsules",
            "NAME,...");
   add_list("--queues", own.calendars, "calendars to compare", "NAME,...");
+  add_list("--accuracy", own.accuracies, "levels of accuracy to compare", "LEVEL,...");
   add_list("--isa", own.isas, "instruction sets to compare", "NAME,...");
   add_list("--threads", own.threads,
            "numbers of threads to compare; then times are wall times, not CPU times", "N,...");
+  add_list("--cell-sides", own.cell_sides, "sides of the cells of linked-cells to compare",
+           "LENGTH,...");
+  add_list("--capsule-radii", own.capsule_radii, "radii of capsules to compare", "LENGTH,...");
+  command
+      .add_option("--vary", own.settings,
+                  "compare the scene with the one that has this value of a key; may be repeated")
+      ->option_text("SECTION.KEY=VALUE")
+      ->allow_extra_args(false)
+      ->needs(scene);
 }
 
 void add_bench_command(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<BenchArguments>();
   CLI::App* command = app.add_subcommand(
-      "bench", "measure searches, calendars and instruction sets on the same scenes");
+      "bench", "measure searches, calendars, accuracies and other settings on the same scenes");
   CLI::Option* subset = command
                             ->add_option("SUBSET", arguments->subset,
                                          "what to measure, by default quick; --list describes all")

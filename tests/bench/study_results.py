@@ -126,7 +126,7 @@ class Rounds(unittest.TestCase):
         self.assertIn("median (range) of 3 interleaved repetitions; commit c", text)
         self.assertIn("| 33.0 (30.0–60.0) |", text)  # baseline
         self.assertIn("| 11.0 (10.0–12.0) |", text)  # auto
-        self.assertIn("| 3.00 (2.75–5.45) |", text)  # times baseline
+        self.assertIn("| 3.00 (2.75–5.45) |", text)  # speed-up
         picture = (self.folder / "density.svg").read_text()
         ElementTree.fromstring(picture.encode())
         self.assertIn("needles per L³", picture)

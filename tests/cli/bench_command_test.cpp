@@ -59,7 +59,7 @@ TEST_F(BenchCommand, MeasuresTheBaselineAndTheEngine) {
   EXPECT_EQ(baseline["search"], "linked-lists");
   EXPECT_EQ(baseline["queue"], "indexed-heap");
   EXPECT_EQ(baseline["isa"], "scalar");
-  EXPECT_EQ(baseline["times_baseline"], 1.0);
+  EXPECT_EQ(baseline["speedup"], 1.0);
   EXPECT_FALSE(engine["baseline"]);
   EXPECT_NE(engine["search"], "auto");
   EXPECT_EQ(engine["isa"], kernels::name_of(kernels::available().back()));
@@ -119,8 +119,8 @@ TEST_F(BenchCommand, MeasuresASceneOfTheUserWithTheStrategiesAskedFor) {
     EXPECT_EQ(one["threads"], 1);
     EXPECT_EQ(one["accuracy"], "standard");
     EXPECT_EQ(one["warm_up_hash"], baseline["warm_up_hash"]);
-    EXPECT_LE(one["times_baseline_low"], one["times_baseline"]);
-    EXPECT_GE(one["times_baseline_high"], one["times_baseline"]);
+    EXPECT_LE(one["speedup_low"], one["speedup"]);
+    EXPECT_GE(one["speedup_high"], one["speedup"]);
     if (one == baseline) continue;
     EXPECT_EQ(one["isa"], "scalar");
     asked.push_back(one["search_asked"].get<std::string>() + " " +
@@ -138,7 +138,65 @@ TEST_F(BenchCommand, ComparesSearchesWhereNothingIsSaid) {
   ASSERT_EQ(cases.size(), 3u);
   EXPECT_EQ(cases[1]["search"], "linked-cells");
   EXPECT_EQ(cases[2]["search"], "capsules");
-  EXPECT_TRUE(cases[1]["times_baseline_low"].is_null()) << "one repetition has no interval";
+  EXPECT_TRUE(cases[1]["speedup_low"].is_null()) << "one repetition has no interval";
+}
+
+TEST_F(BenchCommand, ComparesLevelsOfAccuracyAndSizes) {
+  write("own.toml", own_scene);
+  const json object = json_of(
+      "bench --scene own.toml --set engine.search='\"capsules\"' --accuracy fast,standard,rigorous "
+      "--capsule-radii 0.1,0.2 --repetitions 1 --min-time 0 --json");
+  ASSERT_EQ(object["cases"].size(), 7u);
+  const char* levels[] = {"fast", "standard", "rigorous"};
+  for (std::size_t n = 1; n < 7; ++n) {
+    const json& one = object["cases"][n];
+    EXPECT_EQ(one["accuracy"], levels[(n - 1) / 2]);
+    EXPECT_EQ(one["capsule_radius"], n % 2 ? 0.1 : 0.2);
+  }
+  const json sides = json_of(
+      "bench --scene own.toml --searches linked-cells --cell-sides 0.5 --repetitions 1 --min-time "
+      "0 "
+      "--json");
+  EXPECT_EQ(sides["cases"][1]["cell_side"], 0.5);
+}
+
+TEST_F(BenchCommand, ComparesOtherValuesOfAnyKey) {
+  write("own.toml", own_scene);
+  const Outcome outcome =
+      run("bench --scene own.toml --vary collisions.epsilon=0.5 --vary needles.count=50 "
+          "--repetitions 1 --min-time 0 --json kept.json --csv kept.csv");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json kept = json::parse(read("kept.json"));
+  ASSERT_EQ(kept["cases"].size(), 3u);
+  EXPECT_TRUE(kept["cases"][0]["setting"].is_null());
+  EXPECT_EQ(kept["cases"][1]["setting"], "collisions.epsilon=0.5");
+  EXPECT_EQ(kept["cases"][2]["setting"], "needles.count=50");
+  EXPECT_NE(read("kept.csv").find(",needles.count=50,"), std::string::npos);
+  // A value with the sign that separates the parts of a name.
+  ASSERT_EQ(run("run small.toml --quiet --out start.h5").exit_code, 0);
+  write("state.toml", "");
+  const json state = json_of(
+      "bench --scene state.toml --set initial.file='\"start.h5\"' --vary "
+      "initial.file='\"" +
+      path("start.h5") +
+      "\"' --repetitions 1 "
+      "--min-time 0 --json");
+  ASSERT_EQ(state["cases"].size(), 2u);
+  EXPECT_EQ(state["cases"][1]["setting"], "initial.file=\"" + path("start.h5") + "\"");
+}
+
+TEST_F(BenchCommand, SaysInItsFilesWhatWasChosen) {
+  write("own.toml", own_scene);
+  ASSERT_EQ(
+      run("bench --scene own.toml --queues auto --repetitions 1 --min-time 0 --json kept.json")
+          .exit_code,
+      0);
+  const json one = json::parse(read("kept.json"))["cases"][0];
+  EXPECT_EQ(one["search_asked"], "auto");
+  EXPECT_EQ(one["search"], "linked-cells");
+  EXPECT_EQ(one["queue"], "tournament");
+  const json again = json_of("bench --results kept.json --json")["cases"][0];
+  EXPECT_EQ(again["search"], "linked-cells");
 }
 
 TEST_F(BenchCommand, TakesWallTimesOfThreadsAndLeavesOutWhatNeedsOne) {
@@ -180,9 +238,10 @@ TEST_F(BenchCommand, WritesATableWithAFieldForEachPartOfAName) {
   std::getline(lines, baseline);
   std::getline(lines, bucket);
   EXPECT_FALSE(std::getline(lines, more)) << more;
-  EXPECT_TRUE(header.starts_with(
-      "scene,search_asked,queue_asked,accuracy,isa,threads,storage,cell_side,capsule_radius,search,"
-      "queue,needles,density,baseline,median_us_per_collision,"))
+  EXPECT_TRUE(
+      header.starts_with("scene,search_asked,queue_asked,accuracy,isa,threads,storage,cell_side,"
+                         "capsule_radius,setting,"
+                         "search,queue,needles,density,baseline,median_us_per_collision,"))
       << header;
   const std::string isa(kernels::name_of(kernels::available().back()));
   EXPECT_TRUE(baseline.starts_with("\"my, scene\",auto,auto,standard," + isa + ",1,sorted,"))
@@ -201,7 +260,7 @@ TEST_F(BenchCommand, WritesOneLineForEachCaseAndNoOtherSamples) {
   const json kept = json::parse(read("kept.json"));
   ASSERT_EQ(kept["cases"].size(), 2u);
   for (const json& one : kept["cases"]) {
-    EXPECT_EQ(one.size(), 12u) << "name, its nine parts, baseline and times: " << one;
+    EXPECT_EQ(one.size(), 15u) << "name, its ten parts, what was chosen, baseline, times: " << one;
     EXPECT_EQ(one["us_per_collision"].size(), 3u);
     EXPECT_EQ(one["scene"], "n=1,N=200");
     EXPECT_TRUE(one["baseline"].is_boolean());
@@ -309,6 +368,27 @@ TEST_F(BenchCommand, DoesNotJudgeNoise) {
   write_results("old.json", {40, 40, 40}, {10, 10, 10});
   write_results("new.json", {40, 40, 40}, {5, 5, 5});
   EXPECT_EQ(verdict(0), "unclear");
+}
+
+TEST_F(BenchCommand, JudgesTheTimesOfRunsThatDifferInOneSetting) {
+  json old = results_of(steady, {10, 10.3, 10.1, 10.2, 10.1});
+  json now = results_of(steady, {12, 12.2, 12.1, 12.3, 12.1});
+  for (json& one : now["cases"]) {
+    std::string name = one["name"];
+    name.replace(name.find("standard"), 8, "rigorous");
+    one["name"] = name;
+  }
+  write("old.json", old.dump());
+  write("new.json", now.dump());
+  const json judged =
+      json_of("bench --results new.json --compare old.json --json", "", 1)["comparison"];
+  ASSERT_EQ(judged.size(), 2u) << "the baseline as well";
+  EXPECT_EQ(judged[0]["verdict"], "same");
+  EXPECT_EQ(judged[1]["verdict"], "slower");
+  EXPECT_EQ(judged[1]["old_name"], case_name);
+  EXPECT_TRUE(judged[1]["new_relative_cost"].is_null());
+  const Outcome text = run("bench --results new.json --compare old.json");
+  EXPECT_NE(text.out.find("accuracy: standard before, rigorous now."), std::string::npos);
 }
 
 TEST_F(BenchCommand, ReportsCasesThatOnlyOneResultHas) {
