@@ -27,7 +27,7 @@ struct Provided {
 /// replaces or adds its key before anything is checked; the last override of a key wins. Overrides
 /// do not remove other keys, with exceptions for alternatives in the file: collisions.tc and
 /// collisions.tc_relative replace each other, so do output.series_every and
-/// output.series_per_decade, and initial.file replaces initial.t_tr and initial.t_rot. Overriding a
+/// output.series_per_decade, output.frames_every and output.frames, and initial.file replaces initial.t_tr and initial.t_rot. Overriding a
 /// temperature is an error if the file has initial.file, because it could mean either to draw
 /// velocities or to rescale them.
 ///

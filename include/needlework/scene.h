@@ -118,6 +118,7 @@ struct Scene {
     std::optional<double> series_every;       ///< samples at its multiples instead [time]
     std::vector<double> frame_times;          ///< `frames = [t, ...]`: times of frames
     std::optional<double> frames_per_decade;  ///< `frames = n`: frames per decade of time
+    std::optional<double> frames_every;       ///< frames at its multiples instead [time]
     std::vector<std::string> observables;     ///< names of what /series holds besides Totals
     std::optional<std::array<int, 3>> grid;   ///< cells along each axis; absent: of 20 needles
     bool events = false;                      ///< whether to record every collision

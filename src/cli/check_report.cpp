@@ -311,7 +311,9 @@ std::string output_text(const Scene::Output& output) {
           : fmt::format("{}, a series of {:g} samples per decade of time, ", output.file,
                         output.series_per_decade);
   if (!output.observables.empty()) text += fmt::format("{}, ", fmt::join(output.observables, ", "));
-  if (output.frames_per_decade) {
+  if (output.frames_every) {
+    text += fmt::format("a frame every {:g}", *output.frames_every);
+  } else if (output.frames_per_decade) {
     text += fmt::format("{:g} frames per decade", *output.frames_per_decade);
   } else if (!output.frame_times.empty()) {
     text += fmt::format("{} frames and the first and last", output.frame_times.size());

@@ -25,6 +25,7 @@ Schedule series_schedule(const Scene::Output& output, double start) {
 }
 
 Schedule frame_schedule(const Scene::Output& output, double start) {
+  if (output.frames_every) return Schedule::linear(*output.frames_every);
   if (output.frames_per_decade) return Schedule::logarithmic(*output.frames_per_decade, start);
   return Schedule::at(output.frame_times);
 }

@@ -133,6 +133,7 @@ std::vector<std::string> output_warnings(const Scene& scene) {
   const Scene::Output& output = scene.output;
   const bool frames = output.frames_per_decade || !output.frame_times.empty();
   const char* lost = frames                        ? "frames"
+                     : output.frames_every         ? "frames_every"
                      : output.events               ? "events"
                      : !output.observables.empty() ? "observables"
                      : output.series_every         ? "series_every"

@@ -100,6 +100,21 @@ std::vector<Entry> with_items_found(const Document& document) {
   return out;
 }
 
+// Keys of which a scene has one, as both would say the same thing.
+constexpr std::pair<const char*, const char*> alternatives[] = {
+    {"collisions.tc", "collisions.tc_relative"},
+    {"output.series_per_decade", "output.series_every"},
+    {"output.frames", "output.frames_every"}};
+
+// The alternative to a key; "" if it has none.
+std::string_view alternative_to(std::string_view name) {
+  for (const auto& [one, other] : alternatives) {
+    if (name == one) return other;
+    if (name == other) return one;
+  }
+  return "";
+}
+
 // Whether an override replaces an earlier entry: one of the same key, or the alternative in the
 // file (see parse_scene).
 bool replaces(const Entry& override_entry, const Entry& entry) {
@@ -107,10 +122,7 @@ bool replaces(const Entry& override_entry, const Entry& entry) {
   const std::string name = full_name(entry), override_name = full_name(override_entry);
   if (name == override_name) return entry.number == override_entry.number;
   if (entry.is_override) return false;
-  if (override_name == "collisions.tc") return name == "collisions.tc_relative";
-  if (override_name == "collisions.tc_relative") return name == "collisions.tc";
-  if (override_name == "output.series_every") return name == "output.series_per_decade";
-  if (override_name == "output.series_per_decade") return name == "output.series_every";
+  if (name == alternative_to(override_name)) return true;
   if (override_name == "initial.file") {
     return name == "initial.t_tr" || name == "initial.t_rot" || name == "species.t_tr" ||
            name == "species.t_rot";
@@ -204,19 +216,19 @@ bool describes_state(const std::string& name) {
 
 // The requirement that a key violates because of what the caller provides or because an earlier
 // key excludes it; empty if there is none.
-std::string_view conflict(const std::string& name, const std::set<std::string>& given,
+std::string conflict(const std::string& name, const std::set<std::string>& given,
                           Provided provided) {
   if (provided.state && describes_state(name)) return "expected none, as the state is given apart";
   const auto has = [&](const char* other) { return given.contains(other); };
-  if ((name == "collisions.tc" && has("collisions.tc_relative")) ||
-      (name == "collisions.tc_relative" && has("collisions.tc")))
-    return "expected either tc or tc_relative, not both";
+  for (const auto& [one, other] : alternatives) {
+    if ((name == one && has(other)) || (name == other && has(one))) {
+      const auto key_of = [](std::string_view full) { return full.substr(full.find('.') + 1); };
+      return fmt::format("expected either {} or {}, not both", key_of(one), key_of(other));
+    }
+  }
   if ((name == "initial.file" && (has("initial.t_tr") || has("initial.t_rot"))) ||
       ((name == "initial.t_tr" || name == "initial.t_rot") && has("initial.file")))
     return "expected either file or temperatures to draw, not both";
-  if ((name == "output.series_every" && has("output.series_per_decade")) ||
-      (name == "output.series_per_decade" && has("output.series_every")))
-    return "expected either series_per_decade or series_every, not both";
   const bool of_species = name.starts_with("species.");
   for (const char* key :
        {"needles.count", "needles.k", "needles.diameter", "initial.t_tr", "initial.t_rot"}) {
@@ -412,7 +424,7 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
     if (full_name(entry) == "species.name" || entry.section == "pairs") names.push_back(entry);
     if (!read_value(scene, *key, entry))
       throw document.error(entry, key->expected_instead_of(entry.value));
-    if (const std::string_view reason = conflict(full_name(entry), given_keys, provided);
+    if (const std::string reason = conflict(full_name(entry), given_keys, provided);
         !reason.empty())
       throw document.error(entry, reason);
     given_keys.insert(full_name(entry));

@@ -143,13 +143,14 @@ void visit_members(AnyScene& scene, Visit&& visit) {
     visit("until", "wall_s", wall_s);
   }
   {
-    auto& [file, series_per_decade, series_every, frame_times, frames_per_decade, observables, grid,
-           events, checkpoint_every] = output;
+    auto& [file, series_per_decade, series_every, frame_times, frames_per_decade, frames_every,
+           observables, grid, events, checkpoint_every] = output;
     visit("output", "file", file);
     visit("output", "series_per_decade", series_per_decade);
     visit("output", "series_every", series_every);
     visit("output", "frames", frame_times);
     visit("output", "frames", frames_per_decade);
+    visit("output", "frames_every", frames_every);
     visit("output", "observables", observables);
     visit("output", "grid", grid);
     visit("output", "events", events);

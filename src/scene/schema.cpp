@@ -437,6 +437,8 @@ const SceneKey keys[] = {
     {"output", "frames",
      "a number > 0 (frames per decade, at most 1e6) or an array of times >= 0, increasing",
      read_frames},
+    {"output", "frames_every", "a time > 0",
+     [](Scene& s, V v) { return store(s.output.frames_every, number(v, smallest_positive)); }},
     {"output", "observables", expected_observables,
      [](Scene& s, V v) { return store(s.output.observables, observables(v)); }, unknown_observable},
     {"output", "grid",

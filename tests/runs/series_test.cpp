@@ -48,6 +48,13 @@ TEST_F(Series, IsAtTheMultiplesOfAStep) {
   EXPECT_EQ(times, (std::vector<double>{0, 0.25, 0.5, 0.75, 1, 1.1}));
 }
 
+TEST_F(Series, HasFramesAtTheMultiplesOfAStep) {
+  Scene every = scene();
+  every.output.frames_every = 0.5;
+  drive(complete_scene(every));
+  EXPECT_TRUE(holds("4 frames")) << io::describe(path);  // 0, 0.5, 1, 1.1
+}
+
 TEST_F(Series, BeginsWhenAGasAtRestIsSetInMotion) {
   const State moving = draw_initial_state(scene());
   Silent monitor;

@@ -164,6 +164,7 @@ TEST(BadScene, ValueOutOfRangeOrOfWrongTypeIsNamedWithItsLine) {
       {"output", "series_every = 0", every},
       {"output", "series_every = -1", every},
       {"output", "series_every = nan", every},
+      {"output", "frames_every = 0", every},
       {"output", "grid = 0", grid},
       {"output", "grid = 2.5", grid},
       {"output", "grid = 101", grid},

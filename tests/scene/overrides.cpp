@@ -69,6 +69,9 @@ TEST(Override, OfAnAlternativeReplacesTheChoiceOfTheFile) {
   const Scene logarithmic = parse({"output.series_per_decade=5"}, "output.series_every = 2");
   EXPECT_EQ(logarithmic.output.series_per_decade, 5);
   EXPECT_FALSE(logarithmic.output.series_every);
+  const Scene even = parse({"output.frames_every=2"}, "output.frames = [1, 2]");
+  EXPECT_EQ(even.output.frames_every, 2);
+  EXPECT_TRUE(even.output.frame_times.empty());
   const Scene restart = parse({"initial.file=a.h5"}, "initial = {t_tr = 2, t_rot = 0}");
   EXPECT_EQ(restart.initial.file, "a.h5");
   EXPECT_EQ(restart.initial.t_tr, 1);
@@ -90,6 +93,9 @@ TEST(Override, CannotChooseBothAlternatives) {
   EXPECT_EQ(message_of_overrides({}, "output.series_every = 1\noutput.series_per_decade = 2"),
             "s.toml: line 5: output.series_per_decade = 2: expected either series_per_decade or "
             "series_every, not both");
+  EXPECT_EQ(message_of_overrides({}, "output.frames = 1\noutput.frames_every = 2"),
+            "s.toml: line 5: output.frames_every = 2: expected either frames or frames_every, not "
+            "both");
   EXPECT_EQ(message_of_overrides({"initial.t_tr=1"}, "initial.file = 'a.h5'"),
             "--set initial.t_tr=1: expected either file or temperatures to draw, not both");
   EXPECT_EQ(message_of_overrides({"initial.file=a.h5", "initial.t_rot=1"}),

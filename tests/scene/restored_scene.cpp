@@ -42,7 +42,7 @@ wall_s = 7
 [output]
 file = "a.h5"
 series_every = 0.1
-frames = [1, 2, 3]
+frames_every = 0.5
 observables = ["fields"]
 grid = [2, 3, 4]
 events = true
