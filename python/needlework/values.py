@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import sys
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -41,7 +42,7 @@ class Values(Mapping):
         return [*super().__dir__(), *self._values]
 
     def __repr__(self) -> str:
-        inside = ", ".join(f"{name}={value!r}" for name, value in self.items())
+        inside = ", ".join(f"{name}={short_text(value)}" for name, value in self.items())
         return f"{type(self).__name__}({inside})"
 
     def __reduce__(self) -> tuple:
@@ -73,6 +74,15 @@ class Table(Values):
         rows = "".join("<tr>" + "".join(f"<td>{column[i]:.6g}</td>" for column in flat.values())
                        + "</tr>" for i in range(shown))
         return f"<table><tr>{head}</tr>{rows}</table><p>{self.rows} rows</p>"
+
+
+def short_text(value: Any) -> str:
+    """A value on one line: of long arrays their shape alone."""
+    if not isinstance(value, np.ndarray):
+        return repr(value)
+    if value.size > 9:
+        return f"array{list(value.shape)}"
+    return np.array2string(value, separator=", ", max_line_width=sys.maxsize).replace("\n", "")
 
 
 def flat_columns(columns: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:

@@ -79,6 +79,7 @@ class Overview {
   void add_object(const std::string& path, const std::string& name, int depth);
   void add_dataset(const std::string& path, const std::string& name, int depth);
   void add_description(const std::string& path, int depth);
+  void add_boundary(const std::string& path, int depth);
   std::string description(const std::string& path) const;
   void add_parameters();
   std::vector<std::string> children(const std::string& path) const;
@@ -208,6 +209,14 @@ void Overview::add_description(const std::string& path, int depth) {
   if (!text.empty()) add("{:{}}{}", "", 2 * depth + 4, text);
 }
 
+// Of a box, along each axis.
+void Overview::add_boundary(const std::string& path, int depth) {
+  const std::string place = source_.place(path);
+  const Handle object = hdf5::open_object(source_.get(), path, place);
+  if (hdf5::check(H5Aexists(object.get(), "boundary"), place) == 0) return;
+  add("{:{}}boundary: {}", "", 2 * depth + 4, read_text(object.get(), "boundary", place));
+}
+
 std::vector<std::string> Overview::children(const std::string& path) const {
   const std::string place = source_.place(path);
   return hdf5::children(hdf5::open_group(source_.get(), path, place).get(), place);
@@ -226,7 +235,7 @@ void Overview::add_group(const std::string& path, int depth) {
            is_element(path + "/" + name);
   });
   for (const std::string& name : names) {
-    if (elements && (name == "step" || name == "time")) continue;
+    if (elements && (name == "step" || name == "time") && !is_element(path + "/" + name)) continue;
     add_object(path + "/" + name, name, depth);
   }
 }
@@ -245,6 +254,7 @@ void Overview::add_object(const std::string& path, const std::string& name, int 
     add("{:{}}{}{}", "", 2 * depth, name, is_new ? "" : ": the same as " + shown->second);
     if (!is_new) return;
     add_description(path, depth);
+    add_boundary(path, depth);
     add_group(path, depth + 1);
   }
 }
@@ -270,7 +280,10 @@ void Overview::add_parameters() {
   for (const std::string& name : children("/parameters")) {
     const std::string path = "/parameters/" + name;
     const std::string place = source_.place(path);
-    if (!hdf5::is_dataset(source_.get(), path, place)) continue;
+    if (!hdf5::is_dataset(source_.get(), path, place)) {
+      add_object(path, name, 1);
+      continue;
+    }
     const Handle dataset = hdf5::open_dataset(source_.get(), path, place);
     const hdf5::Shape shape = hdf5::shape_of(dataset.get(), place);
     const std::string type = hdf5::type_name(dataset.get(), place);

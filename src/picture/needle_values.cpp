@@ -164,12 +164,43 @@ std::vector<double> flows(const State& state, std::size_t axis) {
   return all;
 }
 
+// The axis along which most needles lie: the eigenvector of the largest eigenvalue of the mean of
+// u u, which has none below 0, by powers of it.
+Vector axis_of_order(const State& state) {
+  std::array<Vector, 3> squares{};
+  for (const Vector& u : state.orientation) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      for (std::size_t b = 0; b < 3; ++b) squares[a][b] += u[a] * u[b];
+    }
+  }
+  Vector axis{1, 1.1, 1.2};  // across no axis of the box
+  for (int power = 0; power < 200; ++power) {
+    const Vector next{dot(squares[0], axis), dot(squares[1], axis), dot(squares[2], axis)};
+    const double length = std::hypot(next[0], next[1], next[2]);
+    if (!(length > 0)) break;  // no needles
+    for (std::size_t a = 0; a < 3; ++a) axis[a] = next[a] / length;
+  }
+  return axis;
+}
+
+// Angle between each needle and the axis of order [degrees].
+std::vector<double> tilts(const State& state) {
+  const Vector axis = axis_of_order(state);
+  const double length = std::hypot(axis[0], axis[1], axis[2]);
+  std::vector<double> all;
+  for (const Vector& u : state.orientation) {
+    const double cosine = std::min(std::abs(dot(u, axis)) / length, 1.0);
+    all.push_back(std::acos(cosine) * 180 / std::numbers::pi);
+  }
+  return all;
+}
+
 }  // namespace
 
 const std::vector<std::string>& quantities() {
-  static const std::vector<std::string> all{"speed",     "spin",    "vx",     "vy",
-                                            "vz",        "flow-x",  "flow-y", "flow-z",
-                                            "alignment", "density", "none"};
+  static const std::vector<std::string> all{
+      "speed",  "spin",      "vx",      "vy",      "vz",          "flow-x", "flow-y",
+      "flow-z", "alignment", "density", "species", "orientation", "none"};
   return all;
 }
 
@@ -203,6 +234,16 @@ NeedleValues values_of(const std::string& quantity, const State& state, bool dar
   } else if (quantity == "density") {
     result.values = densities(state);
     result.label = "density / mean density";
+  } else if (quantity == "species") {
+    result.values.assign(state.species.begin(), state.species.end());
+    result.values.resize(state.size());  // of one species, states need not say it
+    const auto last = std::max_element(result.values.begin(), result.values.end());
+    result.label = "species, from 0 in the order of the scene";
+    result.range = {0, last == result.values.end() ? 1 : std::max(*last, 1.0)};
+  } else if (quantity == "orientation") {
+    result.values = tilts(state);
+    result.label = "angle to the mean axis of all needles [degrees]";
+    result.range = {0, 90};
   } else if (quantity == "none") {
     result.values.assign(state.size(), 1.0);
   } else {

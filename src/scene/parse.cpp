@@ -217,7 +217,7 @@ bool describes_state(const std::string& name) {
 // The requirement that a key violates because of what the caller provides or because an earlier
 // key excludes it; empty if there is none.
 std::string conflict(const std::string& name, const std::set<std::string>& given,
-                          Provided provided) {
+                     Provided provided) {
   if (provided.state && describes_state(name)) return "expected none, as the state is given apart";
   const auto has = [&](const char* other) { return given.contains(other); };
   for (const auto& [one, other] : alternatives) {
@@ -489,7 +489,10 @@ void override_until(Scene& scene, std::span<const std::string> overrides) {
     const SceneKey* key = find_scene_key(entry.section, entry.key);
     if (!key) throw document.error(entry, expected_instead(entry));
     if (entry.section != "until" || !entry.item.empty())
-      throw document.error(entry, "expected a key of [until], as the rest of the scene is given");
+      throw document.error(
+          entry,
+          "expected a key of [until], as the rest of the scene is given; a new "
+          "scene with initial.file goes on from the state of a file by other rules");
     if (removes_end(entry)) {
       remove_end(scene.until, entry.key);
     } else if (!key->read(scene, entry.value)) {

@@ -51,6 +51,24 @@ TEST(NeedleValues, OfAlignmentAreTwoAlongTheVelocityAndMinusOneAcross) {
   EXPECT_NEAR(q[2], 0, 1e-12);  // at rest
 }
 
+TEST(NeedleValues, OfSpeciesAreTheirNumbers) {
+  State state = needles_at(3, {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}});
+  EXPECT_EQ(values("species", state), (std::vector{0.0, 0.0, 0.0}));
+  state.species = {2, 0, 1};
+  const NeedleValues species = values_of("species", state, true);
+  EXPECT_EQ(species.values, (std::vector{2.0, 0.0, 1.0}));
+  EXPECT_EQ(species.range.high, 2);
+}
+
+TEST(NeedleValues, OfOrientationAreAnglesToTheAxisOfOrder) {
+  State state = needles_at(3, {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {1, 2, 1}});
+  // An ordered gas has no direction: -u is u.
+  state.orientation = {{0, 0.6, 0.8}, {0, -0.6, -0.8}, {0, 0.6, 0.8}, {1, 0, 0}};
+  const std::vector<double> angles = values("orientation", state);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(angles[i], 0, 1e-5);
+  EXPECT_NEAR(angles[3], 90, 1e-5);
+}
+
 TEST(NeedleValues, OfDensityAndFlowAreThoseOfTheNeighboursAcrossTheBorders) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> anywhere(-8, 16);  // outside of the box too

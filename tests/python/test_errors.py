@@ -132,6 +132,12 @@ class Scenes(unittest.TestCase):
         for value in (sim.state, sim.totals, sim.gas, sim.counters):
             self.assertEqual(repr(pickle.loads(pickle.dumps(value))), repr(value))
 
+    def test_values_print_as_one_line(self):
+        sim = Simulation(GAS)
+        for value in (sim.totals, sim.gas, sim.counters, sim.state):
+            self.assertNotIn("\n", str(value))
+            self.assertLess(len(str(value)), 1500, str(value))
+
     def test_classes_are_those_of_python_too(self):
         self.assertTrue(issubclass(InputError, (needlework.Error, ValueError)))
         self.assertTrue(issubclass(InputError, ValueError))
