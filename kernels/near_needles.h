@@ -65,12 +65,14 @@ struct Found {
 
 /// The needle that searches.
 struct Seeker {
-  Motion motion;         ///< at `now`
-  float r[3], u[3];      ///< centre and director of its capsule, as in its block; or of its path
-  float now;             ///< present time
-  float ahead;           ///< how far it searches
-  float margin;          ///< margin_of_lengths(); does not cover words
-  float longest_half;    ///< half the length of the longest needle, which each other one may have
+  Motion motion;     ///< at `now`
+  float r[3], u[3];  ///< centre and director of its capsule, as in its block; or of its path
+  float now;         ///< present time
+  float ahead;       ///< how far it searches
+  float margin;      ///< margin_of_lengths(); does not cover words
+  /// Half the length of the longest needle, which each other one may have; for approaching(), the
+  /// largest distance of axes in contact more.
+  float longest_half;
   std::uint32_t needle;  ///< itself; not reported, nor its images
   float axis_half = 0;   ///< half the length of the capsule's axis, or of the path
 };
@@ -91,12 +93,13 @@ struct PairColumns {
     p_x,
     p_y,
     p_z,
-    omega,  // the other's rotation
-    half,   // half the other's length
-    age,    // time since the other's u and p
-    until,  // how far ahead this pair is searched
-    from,   // in: the pair is searched from this time from now on; out: it does not meet between
-            // that time and this one; infinite: it does not meet until `until`
+    omega,     // the other's rotation
+    half,      // half the other's length
+    age,       // time since the other's u and p
+    until,     // how far ahead this pair is searched
+    from,      // in: the pair is searched from this time from now on; out: it does not meet between
+               // that time and this one; infinite: it does not meet until `until`
+    distance,  // of the axes of bodies with a width in contact; needles have none
     columns
   };
   float* column[columns];
@@ -154,12 +157,10 @@ struct NearKernels {
   /// Finds for each of the first n pairs a time before which it does not meet, and sets its column
   /// `from` to that. Returns how many vectors of contact functions it has evaluated.
   std::size_t (*bracket)(const Seeker& seeker, const PairColumns& pairs, std::size_t n);
-  /// The same for rods, which meet where their axes are not farther apart than `distance`.
-  std::size_t (*bracket_rods)(const Seeker& seeker, const PairColumns& pairs, std::size_t n,
-                              float distance);
+  /// The same for rods, which meet where their axes are not farther apart than their `distance`.
+  std::size_t (*bracket_rods)(const Seeker& seeker, const PairColumns& pairs, std::size_t n);
   /// The same for spheres: all half lengths are 0, and one vector of pairs takes one evaluation.
-  std::size_t (*bracket_spheres)(const Seeker& seeker, const PairColumns& pairs, std::size_t n,
-                                 float distance);
+  std::size_t (*bracket_spheres)(const Seeker& seeker, const PairColumns& pairs, std::size_t n);
 };
 
 /// Kernels of an instruction set that is available().

@@ -308,7 +308,7 @@ struct SimdBounds {
 /// `distance`: how near each other axes touch, for rods.
 template <bool wide = false>
 NEEDLEWORK_INLINE SimdBounds bounds_of(const Seeker& seeker, const SimdPairs& pair, Floats until,
-                                       float distance = 0) {
+                                       Floats distance = Floats(0.0f)) {
   SimdBounds out;
   const Floats half(0.5f), one(1.0f), w = pair.omega[0] + pair.omega[1];
   const Floats v = square_root(dot(pair.v, pair.v));
@@ -319,7 +319,7 @@ NEEDLEWORK_INLINE SimdBounds bounds_of(const Seeker& seeker, const SimdPairs& pa
   out.margin = Floats(seeker.margin) + swift * Floats(0x1p-18f) + phase * Floats(0x1p-20f);
   out.trusted = phase < Floats(0x1p12f);
   Floats reach = (pair.half[0] + pair.half[1] + Floats(0x1p-10f)) + out.margin;
-  if constexpr (wide) reach = reach + Floats(distance);
+  if constexpr (wide) reach = reach + distance;
   out.reach_squared = reach * reach + dot(pair.r, pair.r) * Floats(0x1p-18f);
   const Floats arm = Floats(1 + 0x1p-8f) * square_root(out.reach_squared);
   const Floats turn = arm * w;
@@ -386,7 +386,7 @@ struct SimdShares {
 /// which these touch. Each bound is a value less a term linear in time and one quadratic in time.
 template <bool wide>
 NEEDLEWORK_INLINE SimdShares free_around(const SimdSample& e, const SimdBounds& bounds, Floats h,
-                                         float distance) {
+                                         Floats distance) {
   const Floats zero(0.0f), one(1.0f), half(0.5f), sixth(1.0f / 6);
   const Mask known = bounds.trusted & (e.gap < Floats(0x1p10f));
 
@@ -402,7 +402,7 @@ NEEDLEWORK_INLINE SimdShares free_around(const SimdSample& e, const SimdBounds& 
   const Floats moved = h * e.velocity, turned[2] = {h * e.turning[0], h * e.turning[1]};
   const Floats g = along_gap(e.centre, e.director[0], e.director[1]);
   Floats g_error = bounds.error_f;
-  if constexpr (wide) g_error = g_error + Floats(distance);
+  if constexpr (wide) g_error = g_error + distance;
   const Floats g_now = g - g_error * e.gap;
   const Floats g_before =
       along_gap(e.centre - moved, e.director[0] - turned[0], e.director[1] - turned[1]) - g;
@@ -432,13 +432,14 @@ NEEDLEWORK_INLINE SimdShares free_around(const SimdSample& e, const SimdBounds& 
 /// the `parts` of its pair's time each pair of the vector is searched in.
 template <bool wide>
 inline std::size_t bracket_vector(const Seeker& seeker, const PairColumns& pairs, std::size_t k,
-                                  std::size_t end, const float* part, std::size_t parts,
-                                  float distance) {
+                                  std::size_t end, const float* part, std::size_t parts) {
   using C = PairColumns;
   constexpr float infinity = std::numeric_limits<float>::infinity();
   const Floats zero(0.0f), one(1.0f), half(0.5f), margin(static_cast<float>(time_margin));
   const auto column = [&](int c) NEEDLEWORK_TARGET { return load_floats(pairs.column[c] + k); };
   const SimdPairs pair = load_pairs(seeker, pairs, k);
+  Floats distance = zero;
+  if constexpr (wide) distance = column(C::distance);
   const SimdBounds bounds = bounds_of<wide>(seeker, pair, column(C::until), distance);
   const SimdTimeSpan overlap = overlap_of_spheres(pair, bounds);
   Floats until = minimum(overlap.end, column(C::until));
@@ -486,11 +487,15 @@ inline std::size_t bracket_vector(const Seeker& seeker, const PairColumns& pairs
 
 /// Copies the `count` pairs from k on behind themselves, once for each further part of their time,
 /// and stores in `part` which part each of them is.
+template <bool wide>
 NEEDLEWORK_INLINE void repeat_pairs(const PairColumns& pairs, std::size_t k, std::size_t count,
                                     std::size_t parts, float* part) {
+  static_assert(PairColumns::distance + 1 == PairColumns::columns);
+  constexpr int columns = wide ? PairColumns::columns : PairColumns::distance;
   for (std::size_t p = 1; p < parts; ++p) {
     for (std::size_t lane = 0; lane < count; lane += floats_at_once) {
-      for (float* column : pairs.column) {
+      for (int c = 0; c < columns; ++c) {
+        float* const column = pairs.column[c];
         store_floats(load_floats(column + k + lane), column + k + p * count + lane);
       }
       store_floats(Floats(static_cast<float>(p)), part + p * count + lane);
@@ -499,8 +504,7 @@ NEEDLEWORK_INLINE void repeat_pairs(const PairColumns& pairs, std::size_t k, std
 }
 
 template <bool wide>
-inline std::size_t bracket_all(const Seeker& seeker, const PairColumns& pairs, std::size_t n,
-                               float distance) {
+inline std::size_t bracket_all(const Seeker& seeker, const PairColumns& pairs, std::size_t n) {
   using C = PairColumns;
   if (n == 0) return 0;
   // Few pairs do not fill the vectors: each is searched in several parts of its time at once. How
@@ -510,10 +514,10 @@ inline std::size_t bracket_all(const Seeker& seeker, const PairColumns& pairs, s
   for (std::size_t k = 0; k < n; k += block_size) {
     const std::size_t count = std::min(n - k, block_size);
     float part[2 * block_size] = {};
-    repeat_pairs(pairs, k, count, parts, part);
+    repeat_pairs<wide>(pairs, k, count, parts, part);
     const std::size_t end = k + parts * count;
     for (std::size_t at = k; at < end; at += floats_at_once) {
-      evaluations += bracket_vector<wide>(seeker, pairs, at, end, part + (at - k), parts, distance);
+      evaluations += bracket_vector<wide>(seeker, pairs, at, end, part + (at - k), parts);
     }
     float* from = pairs.column[C::from] + k;
     for (std::size_t i = count; i < parts * count; ++i) {
@@ -524,18 +528,16 @@ inline std::size_t bracket_all(const Seeker& seeker, const PairColumns& pairs, s
 }
 
 std::size_t bracket(const Seeker& seeker, const PairColumns& pairs, std::size_t n) {
-  return bracket_all<false>(seeker, pairs, n, 0);
+  return bracket_all<false>(seeker, pairs, n);
 }
 
-std::size_t bracket_rods(const Seeker& seeker, const PairColumns& pairs, std::size_t n,
-                         float distance) {
-  return bracket_all<true>(seeker, pairs, n, distance);
+std::size_t bracket_rods(const Seeker& seeker, const PairColumns& pairs, std::size_t n) {
+  return bracket_all<true>(seeker, pairs, n);
 }
 
 /// They meet when their centres come that near, which is the time at which their bounding spheres
 /// do.
-std::size_t bracket_spheres(const Seeker& seeker, const PairColumns& pairs, std::size_t n,
-                            float distance) {
+std::size_t bracket_spheres(const Seeker& seeker, const PairColumns& pairs, std::size_t n) {
   using C = PairColumns;
   const Floats infinity(std::numeric_limits<float>::infinity()), zero(0.0f);
   const Floats margin(static_cast<float>(time_margin));
@@ -546,7 +548,7 @@ std::size_t bracket_spheres(const Seeker& seeker, const PairColumns& pairs, std:
     const SimdPairs pair = load_pairs(seeker, pairs, k);
     const Floats until = column(C::until);
     const SimdTimeSpan overlap =
-        overlap_of_spheres(pair, bounds_of<true>(seeker, pair, until, distance));
+        overlap_of_spheres(pair, bounds_of<true>(seeker, pair, until, column(C::distance)));
     const Floats from = maximum(maximum(overlap.begin, column(C::from)) - margin, zero);
     const Mask apart = overlap.never | (from > minimum(overlap.end, until));
     store_floats(select(apart, infinity, from), pairs.column[C::from] + k);

@@ -78,7 +78,11 @@ class Composition {
   void set_count(std::size_t index, std::uint64_t count) { species_[index].count = count; }
 
   std::uint64_t count() const;  ///< number of needles of all species
-  double longest() const;  ///< largest extent of a species, that of needles is their length [L]
+  /// The species that all needles are of, where there is but one with needles. A species alone is
+  /// that, whatever its count.
+  std::optional<std::size_t> only() const;
+  // Of the species with needles, or of all if none has any:
+  double longest() const;  ///< largest extent, that of needles is their length [L]
   double widest() const;   ///< largest diameter [L]
   /// Whether these are rods, which collide where their axes are their mean diameter apart.
   bool has_width() const { return widest() > 0; }

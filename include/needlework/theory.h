@@ -139,6 +139,13 @@ inline constexpr std::size_t most_species_of_theory = 8;
 MixtureRates mixture_rates(const Composition& composition, double volume,
                            std::span<const Temperatures> now);
 
+/// By how much bodies of each two species, by Composition::pair_index, are more often in contact in
+/// an elastic fluid in equilibrium without order than at low density: 1 for needles. Of spheres the
+/// values of G. A. Mansoori, N. F. Carnahan, K. E. Starling and T. W. Leland, J. Chem. Phys. 54,
+/// 1523 (1971). Rods count as the spheres with which these give the pressure that I. Nezbeda, Chem.
+/// Phys. Lett. 41, 55 (1976), finds of rods alone at the same packing fraction. [1]
+std::vector<double> contact_values(const Composition& composition, double volume);
+
 /// Second virial coefficient of rods whose directors are uniformly distributed, 0 for needles: at
 /// low density n the pressure of elastic rods in equilibrium is n T (1 + n B). [L^3]
 double second_virial(const Composition& composition);
@@ -165,8 +172,10 @@ std::vector<std::vector<Temperatures>> mixture_cooling(const Composition& compos
 /// The same course, followed step by step: cheap where times become known one after the other.
 class MixtureCurve {
  public:
-  MixtureCurve(const Composition& composition, double volume,
-               std::span<const Temperatures> initial);
+  /// `contact`: how many times more often bodies of each two species collide, by
+  /// Composition::pair_index; 1 where nothing is given.
+  MixtureCurve(const Composition& composition, double volume, std::span<const Temperatures> initial,
+               std::vector<double> contact = {});
   MixtureCurve(MixtureCurve&&) noexcept;
   MixtureCurve& operator=(MixtureCurve&&) noexcept;
   ~MixtureCurve();

@@ -224,6 +224,30 @@ std::string driving_lines(const runs::Explanation& e) {
   return text;
 }
 
+const char* method_of(const runs::Explanation& e) {
+  if (!e.placing->on_lattice) return "insertion";
+  return e.scene.initial.packing == "crossed" ? "crossed" : "lattice";
+}
+
+std::string placing_text(const runs::Explanation& e) {
+  const auto& [on_lattice, tries, collisions] = *e.placing;
+  const std::string how =
+      on_lattice
+          ? fmt::format("{}, then {} elastic collisions each",
+                        e.scene.initial.packing == "crossed" ? "in crossed blocks" : "on a lattice",
+                        collisions)
+          : fmt::format("one by one, in about {:.2g} tries each", tries);
+  return fmt::format("{}; about {}", how, runs::duration_text(e.placing_seconds));
+}
+
+Json placing_json(const runs::Explanation& e) {
+  const auto& [on_lattice, tries, collisions] = *e.placing;
+  return {{"method", method_of(e)},
+          {"tries_per_rod", on_lattice ? Json() : number(tries)},
+          {"collisions_per_rod", on_lattice ? number(collisions) : Json()},
+          {"wall_s", number(e.placing_seconds)}};
+}
+
 Json walls_json(const runs::Explanation& e) {
   Json out = Json::array();
   for (const runs::ExplainedWall& wall : e.walls) {
@@ -340,6 +364,7 @@ std::string json_of(const runs::Explanation& e) {
     const auto& box = scene.needles.box;
     json["packing_fraction"] = composition.packing_fraction(box[0] * box[1] * box[2]);
   }
+  if (e.placing) json["placing"] = placing_json(e);
   json["k"] = of_one(composition[0].k);
   json["seed"] = scene.needles.seed;
   json["t_tr"] = e.initial.t_tr;
@@ -407,6 +432,7 @@ std::string text_of(const runs::Explanation& e) {
                                         composition.packing_fraction(box[0] * box[1] * box[2])));
   }
   text += line("start", start_text(e));
+  if (e.placing) text += line("placing", placing_text(e));
   text +=
       line("mean free time", fmt::format("{:.4g}{}", e.mean_free_time,
                                          composition.has_width() ? ", that of low density" : ""));

@@ -98,6 +98,8 @@ RunLog open_log(const Printing& printing, const std::string& output_file) {
 int run(const RunArguments& arguments) {
   SignalGuard signals;
   std::optional<SetUp> set_up("nothing is saved");
+  const Printing& printing = arguments.printing;
+  if (!printing.quiet && !printing.json) set_up->show_progress(printing.progress_every);
   runs::LoadedScene loaded = load_scene(arguments.scene, &*set_up);
   Scene& scene = loaded.scene;
   if (arguments.out) {

@@ -5,12 +5,30 @@
 #include <utility>
 
 #include "src/cli/signals.h"
+#include "src/runs/progress_text.h"
 #include "src/runs/resources.h"
 
 namespace needlework::cli {
 
 SetUp::SetUp(std::string nothing_lost)
-    : nothing_lost_(std::move(nothing_lost)), request_([this] { return why(); }) {}
+    : nothing_lost_(std::move(nothing_lost)), request_([this] { return asked(); }) {}
+
+std::string SetUp::asked() {
+  const auto& [what, share] = request_.stage();
+  const double now = runs::seconds_since_launch();
+  if (what != stage_) stage_began_ = now;
+  stage_ = what;
+  std::string out = why();
+  if (line_ && what && (!out.empty() || line_->is_due(now))) {
+    const double left = (now - stage_began_) * ((1 - share) / share);
+    if (out.empty()) {
+      line_->show(now, runs::progress_text(share, left, what));
+    } else {
+      line_->clear();
+    }
+  }
+  return out;
+}
 
 std::string SetUp::why() const {
   const bool by_signal = SignalGuard::received() != 0;

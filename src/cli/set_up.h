@@ -5,6 +5,7 @@
 #include <string>
 
 #include "needlework/scene.h"
+#include "src/cli/progress.h"
 #include "src/machine/stop_request.h"
 
 namespace needlework::cli {
@@ -17,12 +18,18 @@ class SetUp {
   /// `nothing_lost` ends the message: "stopped by a signal before the run began (...)".
   explicit SetUp(std::string nothing_lost);
   void limit(const Scene::Until& until) { wall_s_ = until.wall_s; }
+  /// How far the placing of rods is will be shown, every so many seconds if that is given.
+  void show_progress(std::optional<double> every) { line_.emplace(false, every); }
 
  private:
+  std::string asked();
   std::string why() const;
 
   std::string nothing_lost_;
   std::optional<double> wall_s_;
+  std::optional<ProgressLine> line_;
+  const char* stage_ = nullptr;  ///< of the last call
+  double stage_began_ = 0;       ///< seconds since the launch
   StopRequest request_;
 };
 

@@ -35,19 +35,46 @@ std::vector<SpeciesIndex> Composition::in_order_of_id(
   return out;
 }
 
+namespace {
+
+// Calls visit(index) for the species with needles, or for all if none has any.
+template <class Visit>
+void for_each_present(const std::vector<Species>& all, const Visit& visit) {
+  const auto has_needles = [](const Species& species) { return species.count > 0; };
+  const bool any = std::ranges::any_of(all, has_needles);
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    if (!any || has_needles(all[n])) visit(n);
+  }
+}
+
+}  // namespace
+
+std::optional<std::size_t> Composition::only() const {
+  std::size_t present = 0, last = 0;
+  for_each_present(species_, [&](std::size_t n) {
+    ++present;
+    last = n;
+  });
+  return present == 1 ? std::optional(last) : std::nullopt;
+}
+
 double Composition::longest() const {
   double out = 0;
-  for (const Species& each : species_) out = std::max(out, each.extent());
+  for_each_present(species_, [&](std::size_t n) { out = std::max(out, species_[n].extent()); });
   return out;
 }
 
 double Composition::widest() const {
   double out = 0;
-  for (const Species& each : species_) out = std::max(out, each.diameter);
+  for_each_present(species_, [&](std::size_t n) { out = std::max(out, species_[n].diameter); });
   return out;
 }
 
-bool Composition::are_spheres() const { return std::ranges::none_of(species_, &Species::turns); }
+bool Composition::are_spheres() const {
+  bool out = true;
+  for_each_present(species_, [&](std::size_t n) { out = out && !species_[n].turns(); });
+  return out;
+}
 
 double Composition::packing_fraction(double volume) const {
   double out = 0;

@@ -162,13 +162,14 @@ double mean_free_time_of(const Gas& gas, const std::vector<SumsOfSquares>& sums)
   for (const SpeciesTotals& of : species_totals(gas, sums)) {
     temperatures.push_back({of.t_tr, of.t_rot});
   }
-  if (!gas.composition.is_needle_gas()) {
+  const std::optional<std::size_t> only = gas.composition.only();
+  if (!only || gas.composition.has_width()) {
     return mean_free_time(gas.composition, gas.box[0] * gas.box[1] * gas.box[2], temperatures);
   }
-  const Species& species = gas.composition[0];
+  const Species& species = gas.composition[*only];
   return mean_free_time({.density = gas.density(),
-                         .t_tr = temperatures[0].t_tr,
-                         .t_rot = temperatures[0].t_rot,
+                         .t_tr = temperatures[*only].t_tr,
+                         .t_rot = temperatures[*only].t_rot,
                          .length = species.length,
                          .mass = species.mass,
                          .k = species.k});

@@ -16,6 +16,7 @@
 #include "src/scene/check.h"
 #include "src/scene/confinement.h"
 #include "src/scene/initial_state.h"
+#include "src/scene/rod_room.h"
 #include "src/scene/scene_values.h"
 
 namespace needlework {
@@ -27,10 +28,57 @@ constexpr double tries_by_choice = 100;
 // And so many where there is no lattice.
 constexpr double tries_without_choice = 10000;
 
+double volume_of(const Scene& scene) {
+  const auto& box = scene.needles.box;
+  return box[0] * box[1] * box[2];
+}
+
+double packing_fraction(const Scene& scene) {
+  return scene.composition().packing_fraction(volume_of(scene));
+}
+
 // Collisions per rod after which parallel rods have forgotten their order; measured for rods of
 // five diameters, whose order falls by e in 25 and 150 collisions at packing fractions of 0.2 and
 // 0.31.
-double collisions_to_forget(double packing_fraction) { return packing_fraction > 0.2 ? 400 : 60; }
+double collisions_to_forget(const Scene& scene) { return packing_fraction(scene) > 0.2 ? 400 : 60; }
+
+RodOrder order_of(const Scene& scene) {
+  return scene.initial.packing == "crossed" ? RodOrder::crossed : RodOrder::parallel;
+}
+
+std::string place_of_packing(const Scene& scene) {
+  return place_of(scene, "initial.packing", fmt::format("\"{}\"", scene.initial.packing));
+}
+
+double tries_of(const Scene& scene) {
+  return estimated_tries(scene.composition(), volume_of(scene));
+}
+
+// Whether inserting rods would take far longer than it may. The estimate is that of a fluid, in
+// which rods find more room.
+bool is_hopeless(const Scene& scene) { return tries_of(scene) > 100 * tries_without_choice; }
+
+void require_insertable(const Scene& scene) {
+  if (!is_hopeless(scene)) return;
+  throw InputError(fmt::format(
+      "{}: at a packing fraction of {:.4g} a rod would find no place in {} tries: expected "
+      "\"lattice\", or a larger box",
+      place_of_packing(scene), packing_fraction(scene), most_tries));
+}
+
+[[noreturn]] void refuse_lattice(const Scene& scene) {
+  const Composition composition = scene.composition();
+  const bool spheres = composition.are_spheres();
+  throw InputError(fmt::format(
+      "{}: no lattice of {} has room for {} {} at a packing fraction of {:.4g}: expected a larger "
+      "box, or edges that fit {} better",
+      place_of_packing(scene),
+      order_of(scene) == RodOrder::crossed ? "crossed blocks"
+      : spheres                            ? "spheres"
+                                           : "parallel rods",
+      composition.count(), spheres ? "spheres" : "rods", packing_fraction(scene),
+      spheres ? "them" : "the rods"));
+}
 
 // Elastic collisions of rods, with nothing else that a scene may call for.
 Scene elastic(const Scene& scene, const State& state) {
@@ -65,7 +113,12 @@ DrawnState melted(const Scene& scene, State state, RodOrder order, double collis
   Scene::Until until;
   until.collisions_per_needle = collisions_per_rod;
   until.wall_s = 0.1;
-  while (simulation.advance(until) == Stop::wall_time) StopRequest::check();
+  while (simulation.advance(until) == Stop::wall_time) {
+    const auto rods = static_cast<double>(simulation.needles());
+    StopRequest::check(
+        {"moving rods from a lattice",
+         2 * static_cast<double>(simulation.collisions()) / (collisions_per_rod * rods)});
+  }
   DrawnState out;
   simulation.copy(out.state);
   out.state.image.clear();
@@ -93,34 +146,40 @@ std::optional<DrawnState> inserted(const Scene& scene, double most_tries_on_aver
 
 DrawnState draw_state(const Scene& scene) {
   require_drawable(scene);
-  const Composition composition = scene.composition();
-  if (!composition.has_width()) return {draw_needles(scene), {}};
+  if (!scene.composition().has_width()) return {draw_needles(scene), {}};
+  require_room_for_rods(scene);
   const std::string& packing = scene.initial.packing;
-  const std::string place = place_of(scene, "initial.packing", fmt::format("\"{}\"", packing));
   if (packing == "insertion") {
+    require_insertable(scene);
     if (auto state = inserted(scene, most_tries)) return std::move(*state);
     throw InputError(
         fmt::format("{}: a rod found no place in {} tries: expected \"lattice\", or a "
                     "larger box",
-                    place, most_tries));
+                    place_of_packing(scene), most_tries));
   }
-  if (packing == "auto") {
+  if (packing == "auto" && !is_hopeless(scene)) {
     if (auto state = inserted(scene, tries_by_choice)) return std::move(*state);
   }
-  const auto& box = scene.needles.box;
-  const double packing_fraction = composition.packing_fraction(box[0] * box[1] * box[2]);
-  const RodOrder order = packing == "crossed" ? RodOrder::crossed : RodOrder::parallel;
-  auto lattice = place_rods_on_lattice(scene, order);
-  if (lattice)
-    return melted(scene, std::move(*lattice), order, collisions_to_forget(packing_fraction));
-  if (packing == "auto") {
+  if (auto lattice = place_rods_on_lattice(scene, order_of(scene)))
+    return melted(scene, std::move(*lattice), order_of(scene), collisions_to_forget(scene));
+  if (packing == "auto" && !is_hopeless(scene)) {
     if (auto state = inserted(scene, tries_without_choice)) return std::move(*state);
   }
-  throw InputError(
-      fmt::format("{}: no lattice of {} has room for {} rods at a packing fraction of {:.4g}: "
-                  "expected a larger box, or edges that fit the rods better",
-                  place, order == RodOrder::crossed ? "crossed blocks" : "parallel rods",
-                  composition.count(), packing_fraction));
+  refuse_lattice(scene);
+}
+
+PlannedPlacement plan_placement(const Scene& scene) {
+  require_drawable(scene);
+  require_room_for_rods(scene);
+  const double tries = tries_of(scene);
+  const std::string& packing = scene.initial.packing;
+  if (packing == "insertion") require_insertable(scene);
+  if (packing == "insertion" || (packing == "auto" && tries <= tries_by_choice))
+    return {.tries = tries};
+  if (place_rods_on_lattice(scene, order_of(scene)))
+    return {.on_lattice = true, .collisions = collisions_to_forget(scene)};
+  if (packing != "auto" || is_hopeless(scene)) refuse_lattice(scene);
+  return {.tries = std::min(tries, tries_without_choice)};
 }
 
 State draw_initial_state(const Scene& scene) { return draw_state(scene).state; }

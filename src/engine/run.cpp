@@ -64,9 +64,10 @@ bool has_contact_time(const Scene& scene) {
 
 Effects effects_of(const Scene& scene) {
   const Composition composition = scene.composition();
+  const std::optional<std::size_t> only = composition.only();
   return {.rough = composition.is_rough(),
           .contact_time = scene.collisions.tc || scene.collisions.tc_relative,
-          .table = composition.is_mixture() || !is_unit(composition[0]),
+          .table = !only || !is_unit(composition[*only]),
           .width = composition.has_width(),
           .sliding = scene.collisions.sliding,
           .kicks = scene.driving.kicks.has_value()};

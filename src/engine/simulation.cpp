@@ -464,6 +464,9 @@ std::vector<std::uint64_t> Simulation::collisions_by_pair() const {
   if (!run.gas.composition.is_mixture()) return {run.tally.collisions};
   std::vector<std::uint64_t> out = run.tally.by_pair;
   out.resize(run.gas.composition.pairs());
+  // The event loop of needles of one species counts no pairs of species.
+  if (const std::optional<std::size_t> only = run.gas.composition.only())
+    out[run.gas.composition.pair_index(*only, *only)] = run.tally.collisions;
   return out;
 }
 const Counters& Simulation::counters() const { return implementation_->run.tally.counters; }

@@ -28,4 +28,9 @@ void StopRequest::check() {
   if (const std::string why = latest_request->asked_(); !why.empty()) throw StoppedEarly(why);
 }
 
+void StopRequest::check(const Stage& stage) {
+  if (latest_request) latest_request->stage_ = stage;
+  check();
+}
+
 }  // namespace needlework

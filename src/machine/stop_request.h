@@ -39,6 +39,13 @@ class StopRequest {
   static void check_in_turn(std::size_t turn) {
     if (turn % 4096 == 0) check();
   }
+  /// The same for work of which a share, of [0, 1], is done: whoever is asked may show that.
+  struct Stage {
+    const char* what = nullptr;  ///< null where nothing is known
+    double share = 0;
+  };
+  static void check(const Stage& stage);
+  const Stage& stage() const { return stage_; }
   /// For a forked child, where `asked` must not be called: check() does nothing from now on.
   static void forget();
 
@@ -46,6 +53,7 @@ class StopRequest {
   std::function<std::string()> asked_;
   std::chrono::steady_clock::time_point next_;
   StopRequest* outer_;
+  Stage stage_;
 };
 
 }  // namespace needlework

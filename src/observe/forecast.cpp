@@ -123,11 +123,12 @@ std::optional<Forecast> forecast(const Composition& composition, double volume,
                                  const Scene::Until& until) {
   if (until.energy_ratio && *until.energy_ratio >= 1) return Forecast{.stop = Stop::energy};
   const auto rates = theory::mixture_rates(composition, volume, initial).collisions;
-  const double rate = std::accumulate(rates.begin(), rates.end(), 0.0);
+  const std::vector<double> contact = theory::contact_values(composition, volume);
+  const double rate = std::inner_product(rates.begin(), rates.end(), contact.begin(), 0.0);
   if (!(rate > 0)) return at_rest(until);
   Curve curve(static_cast<double>(composition.count()) / rate, end_of(until));
   const double energy = theory::mean_of_species(composition, initial).energy();
-  theory::MixtureCurve course(composition, volume, initial);
+  theory::MixtureCurve course(composition, volume, initial, contact);
   for (const double time : curve.time) {
     const double now = theory::mean_of_species(composition, course.at(time)).energy();
     // Theory gives up where ratios of temperatures take too long to relax.

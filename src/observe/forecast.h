@@ -22,7 +22,8 @@ struct Forecast {
 /// Ratio tau / t = (2/3) sqrt(pi) n between the theory's time and the engine's.
 double theory_time_scale(double density);
 
-/// The same of a mixture of at most theory::most_species_of_theory species in a volume.
+/// The same of a mixture of at most theory::most_species_of_theory species in a volume, or of rods,
+/// which collide as often as theory::contact_values() says.
 std::optional<Forecast> forecast(const Composition& composition, double volume,
                                  const std::vector<theory::Temperatures>& initial,
                                  const Scene::Until& until);

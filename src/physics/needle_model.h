@@ -20,7 +20,10 @@ class NeedleModel {
 
   /// `gas` must outlive the model. Without effects, `effects` must have none.
   NeedleModel(Gas& gas, const Effects& effects, const Accuracy& accuracy)
-      : gas_(gas), effects_(effects), contact_(accuracy) {}
+      : gas_(gas),
+        effects_(effects),
+        contact_(accuracy),
+        only_(gas.composition.only().value_or(0)) {}
 
   Effects effects() const {
     if constexpr (has_effects) return effects_;
@@ -29,7 +32,7 @@ class NeedleModel {
   Gas& gas() const { return gas_; }
   const Restitution& restitution(const Record& a, const Record& b) const {
     if constexpr (has_effects) return gas_.composition.restitution(a.species, b.species);
-    return gas_.composition.rules().front();
+    return gas_.composition.restitution(only_, only_);
   }
   const Accuracy& accuracy() const { return contact_.accuracy(); }
 
@@ -99,12 +102,14 @@ class NeedleModel {
   }
   Body body(const Record& record) const {
     if constexpr (has_effects) return gas_.bodies[record.species];
-    return {.half_length = 0.5, .inverse_mass = 1, .inverse_inertia = 2 * gas_.composition[0].k};
+    return {
+        .half_length = 0.5, .inverse_mass = 1, .inverse_inertia = 2 * gas_.composition[only_].k};
   }
 
   Gas& gas_;
   Effects effects_;
   Law contact_;
+  std::size_t only_;  ///< without effects, the species of all
 };
 
 using RodModel = NeedleModel<true, RodContact>;

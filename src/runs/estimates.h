@@ -2,6 +2,7 @@
 #pragma once
 
 #include "needlework/scene.h"
+#include "src/engine/initial_state.h"
 
 namespace needlework::runs {
 
@@ -14,6 +15,9 @@ double estimated_seconds_per_collision(const Scene& scene, double density);
 /// Wall time until the first event, on the same core [s]: drawing the state, and the first search
 /// of all needles, which takes the longer the denser they are. Density in [L^-3].
 double estimated_setup_seconds(const Scene& scene, double density);
+
+/// Wall time of placing rods, on the same core [s]. Density in [L^-3].
+double estimated_placing_seconds(const Scene& scene, double density, const PlannedPlacement& plan);
 
 /// Throws InputError naming needles.count if the run needs more memory than there is.
 void require_memory(const Scene& scene);

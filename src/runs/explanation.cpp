@@ -100,6 +100,12 @@ double kick_power_of(const Scene& scene) {
   return theory::kick_power(scene.composition(), kicks->translational, kicks->rotational);
 }
 
+std::optional<PlannedPlacement> placing_of(const LoadedScene& loaded) {
+  const Scene& scene = loaded.scene;
+  if (loaded.initial || scene.needles.count == 0 || !scene.composition().has_width()) return {};
+  return plan_placement(scene);
+}
+
 std::vector<double> rates_of(const LoadedScene& loaded) {
   const Composition composition = loaded.scene.composition();
   if (!has_mixture_theory(composition)) return {};
@@ -126,8 +132,10 @@ Explanation::Explanation(const LoadedScene& loaded)
       kick_power(kick_power_of(scene)),
       expected(expected_of(loaded)),
       collisions(collisions_of(expected, scene)),
+      placing(placing_of(loaded)),
+      placing_seconds(placing ? estimated_placing_seconds(scene, density, *placing) : 0),
       seconds(expected && std::isfinite(expected->time)
-                  ? estimated_setup_seconds(scene, density) +
+                  ? placing_seconds + estimated_setup_seconds(scene, density) +
                         collisions * estimated_seconds_per_collision(scene, density)
                   : undefined),
       memory(estimated_memory(scene)),

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "needlework/theory.h"
+#include "src/engine/initial_state.h"
 #include "src/observe/forecast.h"
 #include "src/runs/loaded_scene.h"
 #include "src/scene/confinement.h"
@@ -30,6 +31,7 @@ struct ExplainedGravity {
 
 /// The facts of a scene, for people and for programs. Borrows the scene.
 struct Explanation {
+  /// Throws InputError for rods that find no room.
   explicit Explanation(const LoadedScene& loaded);
 
   const Scene& scene;
@@ -47,8 +49,10 @@ struct Explanation {
   std::optional<Forecast> expected;  ///< none: never met, wall_s alone, or not known where walls,
                                      ///< gravity or driving are
   double collisions;                 ///< of all needles until then; NaN if nothing is expected
-  double seconds;                    ///< estimate of the wall time; NaN if no end is expected
-  double memory;                     ///< estimate [bytes]
+  std::optional<PlannedPlacement> placing;      ///< of rods of finite width that are drawn
+  double placing_seconds;                       ///< estimate of the wall time of that
+  double seconds;                               ///< of all of the run; NaN if no end is expected
+  double memory;                                ///< estimate [bytes]
   std::string search, calendar, accuracy, isa;  ///< of the engine, `auto` resolved
   int threads;
   std::vector<std::string> warnings;

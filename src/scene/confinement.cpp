@@ -173,9 +173,10 @@ std::string Room::expected_instead_of(const std::array<double, 3>& box) const {
       return fmt::format("edges of at least {:.10g}{} ({:.10g} {} lengths)", least_[axis],
                          all ? "" : " along periodic axes", least_edge(counts_as_), body_);
     }
-    return fmt::format("an edge of at least {:.10g} along {}, which has walls (one {} length{})",
-                       least_[axis], axis_names[axis], body_,
-                       gap.approach > 0 ? " at all times of their motion" : "");
+    return fmt::format(
+        "an edge of at least {:.10g} along {}, which has walls ({} {} length{}{})", least_[axis],
+        axis_names[axis], counts_as_ == 1 ? "one" : fmt::to_string(counts_as_), body_,
+        counts_as_ == 1 ? "" : "s", gap.approach > 0 ? " at all times of their motion" : "");
   }
   return fmt::format("edges of at most {:.10g} (1e9 {} lengths)", most_, body_);
 }

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "src/composition/convex_body.h"
 #include "src/machine/stop_request.h"
 #include "src/random/needle_random.h"
 #include "src/scene/confinement.h"
@@ -58,9 +60,10 @@ struct Drawn {
   template <class Square, class Weight>
   Drawn(const Composition& composition, const Square& square, const Weight& weight) {
     const auto& all = composition.species();
-    const Species& first = *std::max_element(
-        all.begin(), all.end(),
-        [&](const Species& a, const Species& b) { return square(a) < square(b); });
+    // Of those with needles: another one must not change how numbers round.
+    const Species& first = *std::ranges::max_element(all, [&](const Species& a, const Species& b) {
+      return std::pair(a.count > 0, square(a)) < std::pair(b.count > 0, square(b));
+    });
     const double count = static_cast<double>(composition.count());
     for (const Species& s : all) {
       factors.push_back(square(first) > 0 ? std::sqrt(square(s) / square(first)) : 0);
@@ -189,20 +192,39 @@ State draw_needles(const Scene& scene) {
   return state;
 }
 
+namespace {
+
+// The ids in the order in which rods are inserted: a large one finds no place among many small
+// ones, which find theirs around it.
+std::vector<std::size_t> largest_first(const Composition& composition,
+                                       const std::vector<SpeciesIndex>& species) {
+  std::vector<std::size_t> out(species.size());
+  std::iota(out.begin(), out.end(), std::size_t{0});
+  std::ranges::stable_sort(out, std::ranges::greater(), [&](std::size_t id) {
+    return excluded_volume(composition[species[id]], composition[species[id]]);
+  });
+  return out;
+}
+
+}  // namespace
+
 Insertion insert_rods(const Scene& scene, std::uint64_t most_tries, double most_on_average) {
   const Composition composition = scene.composition();
   Insertion out{without_velocities(scene, composition.count()), 0, 0};
   const std::vector<SpeciesIndex> species = composition.in_order_of_id();
   const std::array<Gap, 3> gaps = gaps_of(scene);
   RodGrid grid(composition, out.state.box, scene.periodic(), species.size());
-  for (std::size_t id = 0; id < species.size(); ++id) {
+  for (const std::size_t id : largest_first(composition, species)) {
     NeedleRandom random(scene.needles.seed, id);
     bool placed = false;
     const auto is_too_slow = [&] {
       return static_cast<double>(out.tries) > most_on_average * static_cast<double>(species.size());
     };
     for (std::uint64_t n = 0; n < most_tries && !placed && !is_too_slow(); ++n) {
-      StopRequest::check_in_turn(out.tries++);
+      if (out.tries++ % 256 == 0) {
+        StopRequest::check({"placing rods",
+                            static_cast<double>(out.placed) / static_cast<double>(species.size())});
+      }
       Vector &centre = out.state.position[id], &director = out.state.orientation[id];
       draw_place(random, gaps, out.state.box, composition[species[id]], centre, director);
       if (grid.overlap(centre, director, species[id], 0)) continue;

@@ -14,7 +14,8 @@ namespace needlework {
 /// Needles with their velocities: the equilibrium of an ideal gas.
 State draw_needles(const Scene& scene);
 
-/// Rods without velocities, in order of id each where it overlaps none before it.
+/// Rods without velocities, each where it overlaps none before it: those of species that exclude
+/// most come first, in order of id.
 struct Insertion {
   State state;
   std::uint64_t placed = 0;  ///< how many have found a place

@@ -41,86 +41,121 @@ double gap_of(const kernels::RodPair& pair, const Vec3d& apart, double reach) {
 RodGrid::RodGrid(const Composition& composition, const std::array<double, 3>& box,
                  const std::array<bool, 3>& periodic, std::size_t rods)
     : composition_(composition), box_(box), periodic_(periodic) {
-  // About one rod in each cell, and none shorter than what is in contact.
   const double volume = box[0] * box[1] * box[2];
-  const double side =
-      std::max(composition.longest() * (1 + 0x1p-20),
-               std::cbrt(volume / static_cast<double>(std::max<std::size_t>(1, rods))));
-  std::int64_t cells = 1;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    counts_[axis] =
-        std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(box[axis] / side, 1e6)));
-    cells *= counts_[axis];
+  for (const Species& species : composition.species()) {
+    const auto found = std::ranges::find(levels_, species.extent(), &Level::extent);
+    level_of_species_.push_back(static_cast<std::size_t>(found - levels_.begin()));
+    if (found == levels_.end()) levels_.emplace_back().extent = species.extent();
   }
-  first_.assign(static_cast<std::size_t>(cells), none);
+  for (std::size_t n = 0; n < levels_.size(); ++n) {
+    Level& level = levels_[n];
+    // A species alone may have no count.
+    std::uint64_t count = composition.size() == 1 ? rods : 0;
+    for (std::size_t s = 0; s < composition.size(); ++s) {
+      if (level_of_species_[s] == n) count += composition[s].count;
+    }
+    // About one rod in each cell, and none shorter than what is in contact.
+    const double side =
+        std::max(level.extent * (1 + 0x1p-20),
+                 std::cbrt(volume / static_cast<double>(std::max<std::uint64_t>(1, count))));
+    std::int64_t cells = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      level.counts[axis] =
+          std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(box[axis] / side, 1e6)));
+      cells *= level.counts[axis];
+    }
+    level.first.assign(static_cast<std::size_t>(cells), none);
+  }
   rods_.reserve(rods);
 }
 
-std::array<std::int64_t, 3> RodGrid::cell_of(const Vec3d& r) const {
+RodGrid::Cell RodGrid::cell_of(const Level& level, const Vec3d& r) const {
   const double place[3] = {r.x, r.y, r.z};
-  std::array<std::int64_t, 3> out;
+  Cell out;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     double share = place[axis] / box_[axis];
     if (periodic_[axis]) share -= std::floor(share);
-    const auto cell =
-        static_cast<std::int64_t>(std::clamp(share, 0.0, 1.0) * static_cast<double>(counts_[axis]));
-    out[axis] = std::min(cell, counts_[axis] - 1);
+    const auto cell = static_cast<std::int64_t>(std::clamp(share, 0.0, 1.0) *
+                                                static_cast<double>(level.counts[axis]));
+    out[axis] = std::min(cell, level.counts[axis] - 1);
   }
   return out;
 }
 
-std::size_t RodGrid::index_of(const std::array<std::int64_t, 3>& cell) const {
-  return static_cast<std::size_t>((cell[2] * counts_[1] + cell[1]) * counts_[0] + cell[0]);
+std::size_t RodGrid::Level::index_of(const Cell& cell) const {
+  return static_cast<std::size_t>((cell[2] * counts[1] + cell[1]) * counts[0] + cell[0]);
+}
+
+template <class Visit>
+void RodGrid::for_each_near(const Level& level, const Vec3d& r, double reach,
+                            const Visit& visit) const {
+  const Cell cell = cell_of(level, r);
+  // Along each axis the first cell and how many; all of them, where they come round.
+  Cell first, count;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::int64_t all = level.counts[axis];
+    // One more than that many sides, as rounding may put a centre into the next cell.
+    const auto away =
+        static_cast<std::int64_t>(reach * (1 + 0x1p-20) / box_[axis] * static_cast<double>(all)) +
+        1;
+    first[axis] = cell[axis] - away;
+    count[axis] = 2 * away + 1;
+    if (!periodic_[axis]) {
+      const std::int64_t last = std::min(all - 1, cell[axis] + away);
+      first[axis] = std::max<std::int64_t>(0, first[axis]);
+      count[axis] = last - first[axis] + 1;
+    } else if (count[axis] >= all) {
+      first[axis] = 0;
+      count[axis] = all;
+    }
+  }
+  Cell at;
+  for (std::int64_t z = 0; z < count[2]; ++z) {
+    at[2] = (first[2] + z + level.counts[2]) % level.counts[2];
+    for (std::int64_t y = 0; y < count[1]; ++y) {
+      at[1] = (first[1] + y + level.counts[1]) % level.counts[1];
+      for (std::int64_t x = 0; x < count[0]; ++x) {
+        at[0] = (first[0] + x + level.counts[0]) % level.counts[0];
+        for (std::uint32_t i = level.first[level.index_of(at)]; i != none; i = rods_[i].next) {
+          visit(i);
+        }
+      }
+    }
+  }
 }
 
 std::optional<RodGrid::Overlap> RodGrid::overlap(const std::array<double, 3>& centre,
                                                  const std::array<double, 3>& director,
                                                  SpeciesIndex species, double tolerance) const {
   const kernels::Flight flight = at_rest(centre, director);
-  const std::array<std::int64_t, 3> cell = cell_of(flight.r);
-  // The cells around along each axis, each once.
-  std::array<std::array<std::int64_t, 3>, 3> near{};
-  std::array<std::size_t, 3> count{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (std::int64_t n = cell[axis] - 1; n <= cell[axis] + 1; ++n) {
-      const std::int64_t all = counts_[axis];
-      if (!periodic_[axis] && (n < 0 || n >= all)) continue;
-      const std::int64_t wrapped = (n + all) % all;
-      const auto end = near[axis].begin() + static_cast<std::ptrdiff_t>(count[axis]);
-      if (std::find(near[axis].begin(), end, wrapped) == end) near[axis][count[axis]++] = wrapped;
-    }
-  }
   const auto image = [&](double apart, std::size_t axis) {
     return periodic_[axis] ? box_[axis] * std::nearbyint(apart / box_[axis]) : 0;
   };
   const Species& its = composition_[species];
   std::optional<Overlap> out;
-  for (std::size_t z = 0; z < count[2]; ++z) {
-    for (std::size_t y = 0; y < count[1]; ++y) {
-      for (std::size_t x = 0; x < count[0]; ++x) {
-        for (std::uint32_t i = first_[index_of({near[0][x], near[1][y], near[2][z]})]; i != none;
-             i = rods_[i].next) {
-          const Rod& other = rods_[i];
-          const Vec3d apart = flight.r - other.flight.r;
-          const Vec3d shift{image(apart.x, 0), image(apart.y, 1), image(apart.z, 2)};
-          const Vec3d nearest = apart - shift;
-          const Species& others = composition_[other.species];
-          const double distance = composition_.contact_distance(species, other.species);
-          const double reach = 0.5 * (its.length + others.length) + distance;
-          if (dot(nearest, nearest) >= reach * reach) continue;
-          kernels::RodPair pair;
-          pair.first = &flight;
-          pair.second = &other.flight;
-          pair.shift = to_double_double(shift);
-          pair.half_first = 0.5 * its.length;
-          pair.half_second = 0.5 * others.length;
-          pair.distance = distance;
-          const double gap = gap_of(pair, nearest, reach);
-          if (gap >= -tolerance || (out && out->other < i)) continue;
-          out = Overlap{i, distance + gap, distance};
-        }
-      }
-    }
+  const auto compare = [&](std::uint32_t i) {
+    const Rod& other = rods_[i];
+    const Vec3d apart = flight.r - other.flight.r;
+    const Vec3d shift{image(apart.x, 0), image(apart.y, 1), image(apart.z, 2)};
+    const Vec3d nearest = apart - shift;
+    const Species& others = composition_[other.species];
+    const double distance = composition_.contact_distance(species, other.species);
+    const double reach = 0.5 * (its.length + others.length) + distance;
+    if (dot(nearest, nearest) >= reach * reach) return;
+    kernels::RodPair pair;
+    pair.first = &flight;
+    pair.second = &other.flight;
+    pair.shift = to_double_double(shift);
+    pair.half_first = 0.5 * its.length;
+    pair.half_second = 0.5 * others.length;
+    pair.distance = distance;
+    const double gap = gap_of(pair, nearest, reach);
+    if (gap >= -tolerance || (out && out->other < i)) return;
+    out = Overlap{i, distance + gap, distance};
+  };
+  for (const Level& level : levels_) {
+    if (level.entered == 0) continue;
+    for_each_near(level, flight.r, 0.5 * (its.extent() + level.extent), compare);
   }
   return out;
 }
@@ -129,9 +164,11 @@ void RodGrid::enter(const std::array<double, 3>& centre, const std::array<double
                     SpeciesIndex species) {
   const auto i = static_cast<std::uint32_t>(rods_.size());
   Rod& rod = rods_.emplace_back(Rod{at_rest(centre, director), species, none});
-  std::uint32_t& first = first_[index_of(cell_of(rod.flight.r))];
+  Level& level = levels_[level_of_species_[species]];
+  std::uint32_t& first = level.first[level.index_of(cell_of(level, rod.flight.r))];
   rod.next = first;
   first = i;
+  ++level.entered;
 }
 
 }  // namespace needlework

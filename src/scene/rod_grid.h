@@ -39,14 +39,26 @@ class RodGrid {
     SpeciesIndex species;
     std::uint32_t next;  ///< in the same cell, or none
   };
-  std::array<std::int64_t, 3> cell_of(const Vec3d& r) const;
-  std::size_t index_of(const std::array<std::int64_t, 3>& cell) const;
+  using Cell = std::array<std::int64_t, 3>;
+  /// The cells of the rods of one extent.
+  struct Level {
+    double extent = 0;  ///< [L]
+    std::size_t entered = 0;
+    Cell counts{};
+    std::vector<std::uint32_t> first;  ///< in each cell
+
+    std::size_t index_of(const Cell& cell) const;
+  };
+  Cell cell_of(const Level& level, const Vec3d& r) const;
+  /// Calls visit(i) for the rods of a level in the cells within `reach` of r, each once.
+  template <class Visit>
+  void for_each_near(const Level& level, const Vec3d& r, double reach, const Visit& visit) const;
 
   const Composition& composition_;
   std::array<double, 3> box_;
   std::array<bool, 3> periodic_;
-  std::array<std::int64_t, 3> counts_{};
-  std::vector<std::uint32_t> first_;  ///< of each cell
+  std::vector<Level> levels_;
+  std::vector<std::size_t> level_of_species_;
   std::vector<Rod> rods_;
 };
 

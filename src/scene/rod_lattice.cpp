@@ -6,6 +6,8 @@
 #include <limits>
 #include <span>
 
+#include "src/machine/stop_request.h"
+
 namespace needlework {
 namespace {
 
@@ -16,8 +18,18 @@ constexpr Vector hexagonal[] = {{0, 0, 0}, {0.5, 0.5, 0}};
 constexpr Vector hexagonal_in_gaps[] = {
     {0, 0, 0}, {0.5, 0.5, 0}, {0, 1.0 / 3, 0.5}, {0.5, 5.0 / 6, 0.5}};
 constexpr Vector square_in_gaps[] = {{0, 0, 0}, {0.5, 0.5, 0.5}};
-constexpr std::array<std::span<const Vector>, 3> families = {hexagonal, hexagonal_in_gaps,
-                                                             square_in_gaps};
+// Face-centred cubic lattices: by their cubic cells, and in hexagonal layers.
+constexpr Vector cubic[] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
+constexpr Vector three_layers[] = {{0, 0, 0},
+                                   {0.5, 0.5, 0},
+                                   {0, 1.0 / 3, 1.0 / 3},
+                                   {0.5, 5.0 / 6, 1.0 / 3},
+                                   {0, 2.0 / 3, 2.0 / 3},
+                                   {0.5, 1.0 / 6, 2.0 / 3}};
+constexpr std::array<std::span<const Vector>, 5> families = {hexagonal, hexagonal_in_gaps,
+                                                             square_in_gaps, cubic, three_layers};
+// For rods and for spheres; the others are for spheres that the first have no room for.
+constexpr std::size_t families_of_rods = 3;
 
 // Two walls may leave rounding errors between rods and themselves.
 constexpr double beside_walls = 1 + 0x1p-30;
@@ -73,10 +85,14 @@ double least_distance(std::size_t family, const Vector& cell, double length) {
   return least;
 }
 
-}  // namespace
+struct Fit {
+  Choice choice;
+  Edges edges;
+};
 
-std::optional<RodLattice> rod_lattice(const LatticeBox& box, double length, double diameter,
-                                      std::size_t count, std::optional<std::size_t> along) {
+// The fit with the most room of the families from `first` on, up to `end`.
+Fit best_fit(const LatticeBox& box, double length, double diameter, std::size_t count,
+             std::optional<std::size_t> along, std::size_t first, std::size_t end) {
   Choice best;
   Edges best_edges{};
   for (const auto& axes : {std::array<std::size_t, 3>{0, 1, 2},
@@ -96,13 +112,14 @@ std::optional<RodLattice> rod_lattice(const LatticeBox& box, double length, doub
       edges.length[n] = box.high[axis] - box.low[axis] - 2 * beside;
     }
     if (std::ranges::any_of(edges.length, [](double each) { return each < 0; })) continue;
-    for (std::size_t family = 0; family < families.size(); ++family) {
+    for (std::size_t family = first; family < end; ++family) {
       const auto sites = static_cast<std::int64_t>(families[family].size());
       const auto cells_needed = (static_cast<std::int64_t>(count) + sites - 1) / sites;
       const auto most_along = [&](std::size_t n, double spacing) {
         return static_cast<std::int64_t>(edges.length[n] / spacing) + 1;
       };
       for (std::int64_t nx = 1; nx <= most_along(0, diameter); ++nx) {
+        StopRequest::check();
         for (std::int64_t ny = 1; ny <= most_along(1, diameter); ++ny) {
           const std::int64_t nz = (cells_needed + nx * ny - 1) / (nx * ny);
           if (nz > 2 * most_along(2, length + 0.5 * diameter)) continue;
@@ -116,6 +133,22 @@ std::optional<RodLattice> rod_lattice(const LatticeBox& box, double length, doub
         }
       }
     }
+  }
+  return {best, best_edges};
+}
+
+}  // namespace
+
+std::optional<RodLattice> rod_lattice(const LatticeBox& box, double length, double diameter,
+                                      std::size_t count, std::optional<std::size_t> along) {
+  const auto fit = [&](std::size_t first, std::size_t end) {
+    return best_fit(box, length, diameter, count, along, first, end);
+  };
+  auto [best, best_edges] = fit(0, families_of_rods);
+  if (length == 0 && !(best.clearance > 1)) {
+    const Fit denser = fit(families_of_rods, families.size());
+    best = denser.choice;
+    best_edges = denser.edges;
   }
   if (count > 0 && !(best.clearance > 1)) return std::nullopt;
   RodLattice out;

@@ -22,9 +22,10 @@ struct RodLattice {
 
 /// The lattice with the most room between `count` parallel rods of this length and diameter;
 /// nothing if there is none in which they do not overlap. Columns of rods are hexagonal, side by
-/// side or in gaps of the layer below, or square with every second layer in the gaps of the first,
-/// which is the face-centred cubic lattice of spheres. Sites that are too many are left empty,
-/// evenly. The rods lie along `along`, an axis of the box, or along the best of them.
+/// side or in gaps of the layer below, or square with every second layer in the gaps of the first.
+/// Spheres for which these have no room are on a face-centred cubic lattice with its axes along
+/// those of the box, or in hexagonal layers. Sites that are too many are left empty, evenly. The
+/// rods lie along `along`, an axis of the box, or along the best of them.
 std::optional<RodLattice> rod_lattice(const LatticeBox& box, double length, double diameter,
                                       std::size_t count,
                                       std::optional<std::size_t> along = std::nullopt);

@@ -78,16 +78,14 @@ ClassCells::ClassCells(const Gas& gas, const SizeClass& sizes, const CellGrid& i
                        double per_length)
     : kind(sizes.kind),
       radius(sizes.capsule_radius),
+      in_capsules(static_cast<float>(radius * per_length)),
       longest_half(static_cast<float>(0.5 * sizes.axis * per_length)),
+      widest_half(static_cast<float>(0.5 * sizes.diameter * per_length)),
       grid(its_grid),
       cells(grid.size(), sizes.count) {
   const auto sides = grid.sides();
-  const double diameter = gas.composition.widest() + gas.margin;
   if (kind == BoundingVolume::cell) {
     overlap = overlap_of_side * std::min({sides[0], sides[1], sides[2]});
-    if (diameter > 0) longest_half += static_cast<float>(diameter * per_length);
-  } else {
-    around_axis = static_cast<float>((radius + 0.5 * diameter) * per_length);
   }
   const double side = std::max({sides[0], sides[1], sides[2]});
   if (gas.falls) most_fallen = fallen_of_side * std::min(side, sizes.longest);
@@ -122,6 +120,16 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
   if (sizes.all.front().in_balls && reaches_few_cells(gas, *classes.front())) {
     balls.resize(gas.size());
     leave_balls();
+  }
+  const auto radius_of = [&](const Record& record) { return gas.bodies[record.species].radius; };
+  const auto is_other = [&](const Record& record) {
+    return radius_of(record) != radius_of(gas.records.front());
+  };
+  if (std::ranges::any_of(gas.records, is_other)) {
+    half_widths.resize(gas.size());
+    std::ranges::transform(gas.records, half_widths.begin(), [&](const Record& record) {
+      return static_cast<float>(radius_of(record) * per_length);
+    });
   }
 }
 
@@ -236,6 +244,7 @@ void BoundingVolumes::renumber(const std::vector<Needle>& ranks) {
   permute(places, order);
   permute(motions, order);
   if (!balls.empty()) permute(balls, order);
+  if (!half_widths.empty()) permute(half_widths, order);
   for (const auto& each : classes) each->cells.renumber(ranks);
 }
 

@@ -32,13 +32,10 @@ struct ClassCells {
   ClassCells(const Gas& gas, const SizeClass& sizes, const CellGrid& its_grid, double per_length);
 
   BoundingVolume kind;
-  double radius;  ///< how far needles move in their capsules; else 0 [L]
-  /// Capsules around axes have this radius, half the largest diameter more; else 0.
-  /// [unit of length]
-  float around_axis = 0;
-  /// Half the longest axis; in cells, the largest distance of axes in contact more.
-  /// [unit of length]
-  float longest_half;
+  double radius;       ///< of capsules around axes, in which needles move; else 0 [L]
+  float in_capsules;   ///< the same [unit of length]
+  float longest_half;  ///< half the longest axis [unit of length]
+  float widest_half;   ///< half the largest diameter [unit of length]
   CellGrid grid;
   double overlap = 0;          ///< how far a needle may go beyond its cell; 0 for capsules [L]
   kernels::WordFormat format;  ///< of the words in blocks
@@ -129,7 +126,8 @@ struct BoundingVolumes {
   Time base;
   LargeArray<Place> places;
   LargeArray<kernels::Motion> motions;
-  LargeArray<Ball> balls;  ///< empty where none is kept
+  LargeArray<Ball> balls;         ///< empty where none is kept
+  LargeArray<float> half_widths;  ///< half the diameters; empty if all are equal [unit of length]
 
  private:
   Cell cell_around(Needle i) const;

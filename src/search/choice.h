@@ -30,26 +30,41 @@ inline double density_by_mean(double density, const Composition& composition) {
   return density * (share * share * share);
 }
 
-/// How much more often rods collide than needles as long from end to end of the same density. The
-/// area of two rods' excluded body, averaged over their directions, grows by the caps and the width
-/// (2 L^2 sin + 4 pi D L + 4 pi D^2); neighbours are as much more frequent in contact as
-/// Carnahan's and Starling's equation says of spheres, which is about right for rods. 1 for
+/// The area of the body that two rods exclude, averaged over their directions, over that of needles
+/// of length 1: L^2 for needles, and more by the caps and the width.
+/// (2 L^2 sin + 4 pi D L + 4 pi D^2 for two alike.) [L^2]
+inline double excluded_area(const Species& a, const Species& b) {
+  const double width = 0.5 * (a.diameter + b.diameter);
+  return a.length * b.length + 4 * width * (a.length + b.length) + 8 * (width * width);
+}
+
+/// By how much neighbours are more frequent in contact than at low density, as Carnahan's and
+/// Starling's equation says of spheres, which is about right for rods. Density: rods per cube of
+/// the longest one.
+inline double crowding_by_packing(double density, const Composition& composition) {
+  const double longest = composition.longest();
+  double volume = 0, count = 0;
+  for (const Species& each : composition.species()) {
+    volume += static_cast<double>(each.count) * each.volume();
+    count += static_cast<double>(each.count);
+  }
+  if (!(volume > 0)) return 1;
+  const double packing = std::min(0.6, density * volume / (count * longest * longest * longest)),
+               room = 1 - packing;
+  return (1 - 0.5 * packing) / (room * room * room);
+}
+
+/// How much more often rods collide than needles as long from end to end of the same density. 1 for
 /// needles. Density: rods per cube of the longest one.
 inline double crowding_by_width(double density, const Composition& composition) {
   if (!composition.has_width()) return 1;
-  const double longest = composition.longest();
-  double area = 0, square = 0, volume = 0, count = 0;
+  double area = 0, square = 0;
   for (const Species& each : composition.species()) {
-    const double n = static_cast<double>(each.count), length = each.length, width = each.diameter;
-    area += n * (length * length + 8 * width * (length + width));
+    const double n = static_cast<double>(each.count);
+    area += n * excluded_area(each, each);
     square += n * (each.extent() * each.extent());
-    volume += n * each.volume();
-    count += n;
   }
-  if (!(count > 0)) return 1;
-  const double packing = std::min(0.6, density * volume / (count * longest * longest * longest)),
-               room = 1 - packing;
-  return area / square * (1 - 0.5 * packing) / (room * room * room);
+  return square > 0 ? area / square * crowding_by_packing(density, composition) : 1;
 }
 
 /// The density of the gas of needles of one length that collides as often.
@@ -61,14 +76,19 @@ inline double crowding(double density, const Composition& composition) {
 inline constexpr double least_crowd_for_capsules = 2.5;
 /// Spheres stay long enough in balls from here on; where they are less crowded, cells are cheapest.
 inline constexpr double least_crowd_for_balls = 10;
+/// So many times as large as spheres are on average may the largest be: small ones, which have
+/// balls as wide, would have too many neighbours.
+inline constexpr double most_over_mean_in_balls = 1.6;
 
 /// The search asked for by name; by `auto`, the cheaper one. Density: needles per cube of the
 /// longest one.
 inline std::string chosen_search(const std::string& asked, double density,
                                  const Composition& composition) {
   if (asked != "auto") return asked;
-  const double least = composition.are_spheres() ? least_crowd_for_balls : least_crowd_for_capsules;
-  return crowding(density, composition) < least ? "linked-cells" : "capsules";
+  const bool spheres = composition.are_spheres();
+  const double least = spheres ? least_crowd_for_balls : least_crowd_for_capsules;
+  const bool alike = !spheres || mean_length(composition) * most_over_mean_in_balls >= 1;
+  return alike && crowding(density, composition) >= least ? "capsules" : "linked-cells";
 }
 
 /// Whether the search asked for has sizes to choose.

@@ -36,7 +36,7 @@ NearSearch::NearSearch(const Gas& gas, Counters& counters, const SearchSetup& se
       counters_(counters),
       kernels_(kernels::near_kernels(setup.isa)),
       follows_(setup.float_filter),
-      widest_(static_cast<float>(gas.composition.widest() * volumes_->per_length)),
+      has_width_(gas.composition.has_width()),
       margin_(static_cast<float>(gas.margin * volumes_->per_length)),
       are_spheres_(gas.composition.are_spheres()),
       looks_(volumes_->classes.size()) {
@@ -49,7 +49,7 @@ NearSearch::NearSearch(const NearSearch& other, Counters& counters)
       counters_(counters),
       kernels_(other.kernels_),
       follows_(other.follows_),
-      widest_(other.widest_),
+      has_width_(other.has_width_),
       margin_(other.margin_),
       are_spheres_(other.are_spheres_),
       looks_(volumes_->classes.size()) {}
@@ -85,7 +85,6 @@ inline void NearSearch::look_from(Needle i, const ClassCells& own, double ahead,
   seeker.now = seeker.motion.time;
   seeker.ahead = static_cast<float>(ahead * volumes.per_time * roundup + kernels::time_margin);
   seeker.margin = own.margin;
-  seeker.longest_half = own.longest_half;
   seeker.needle = i.index;
 }
 
@@ -123,7 +122,13 @@ inline void NearSearch::seen_from(const ClassCells& own, Look& look) const {
   // The rounding of the seeker's place, in its own cell and in this one.
   seeker.margin = own.margin + there.margin;
   if (capsule) seeker.margin += static_cast<float>(own.format.step());
-  seeker.longest_half = there.longest_half;
+}
+
+// The largest distance of the axis of needle i from one in that class with which it is in contact.
+inline float NearSearch::touching(Needle i, const ClassCells& there) const {
+  const BoundingVolumes& volumes = *volumes_;
+  const float own = volumes.half_widths.empty() ? there.widest_half : volumes.half_widths[i];
+  return own + there.widest_half + margin_;
 }
 
 // What the needle sweeps: the axis of its capsule, or its path in the time ahead.
@@ -133,17 +138,18 @@ inline void NearSearch::sweep(const ClassCells& own, double ahead, Look& look) c
   kernels::Seeker& seeker = look.seeker;
   const bool capsule = look.capsule;
   const bool to_capsules = there.kind == BoundingVolume::capsule;
-  const float half = seeker.motion.half, longest_half = seeker.longest_half;
+  const float half = seeker.motion.half, longest_half = there.longest_half;
   // A needle at rest may stay longer than floats can say.
   const auto time = static_cast<float>(
       std::min<double>(ahead * volumes.per_time, std::numeric_limits<float>::max()));
+  seeker.longest_half = longest_half;
+  if (!to_capsules) seeker.longest_half += look.touching;
   // Another centre is not farther from this needle's axis, if it is in a capsule, than its half
   // length and both radii. The margins cover the rounding of the seeker's place in its cell, and
   // that of distances below, which grows with the sides of cells; the factor covers what grows with
   // the reach.
-  look.distance =
-      (capsule ? own.around_axis : half) + (to_capsules ? there.around_axis : longest_half);
-  if (looks_.size() > 1 && to_capsules && !capsule) look.distance += 0.5f * (widest_ + margin_);
+  look.distance = (capsule ? own.in_capsules : half) +
+                  (to_capsules ? there.in_capsules : longest_half) + look.touching;
   look.reach = look.distance + (static_cast<float>(volume_margin) + 2 * seeker.margin);
   if (to_capsules) look.reach += longest_half + static_cast<float>(there.format.step());
   if (volumes.falls && looks_.size() > 1 && !(capsule && to_capsules)) {
@@ -196,6 +202,7 @@ inline void NearSearch::begin_looks(Needle i, double ahead) {
   make_seeker(i, own, ahead, first.seeker);
   first.origin = volumes.places[i].cell;
   first.capsule = own.kind == BoundingVolume::capsule;
+  first.touching = touching(i, own);
   if (looks_.size() > 1) {
     std::size_t n = 1;
     for (const auto& each : volumes.classes) {
@@ -203,6 +210,7 @@ inline void NearSearch::begin_looks(Needle i, double ahead) {
       Look& look = looks_[n++];
       look = first;
       look.cells = each.get();
+      look.touching = touching(i, *each);
       seen_from(own, look);
     }
   }
@@ -355,7 +363,7 @@ inline kernels::Scan NearSearch::scan(const ClassCells& own, const Look& look,
       look.views,           there.format,       in_cache ? nullptr : volumes.motions.data()};
   const bool paths = there.kind == BoundingVolume::cell;
   if (&own == &there && !paths) {
-    return kernels_.overlapping(around, look.seeker, own.around_axis, found);
+    return kernels_.overlapping(around, look.seeker, 0.5f * look.distance, found);
   }
   if (!paths) return kernels_.near_capsules(around, look.seeker, look.distance, found);
   if (own.kind == BoundingVolume::capsule) {
@@ -387,11 +395,25 @@ inline void NearSearch::propose(const kernels::Found& found, std::size_t k, doub
 
 inline std::size_t NearSearch::bracket(const kernels::Seeker& seeker, const PairColumns& pairs,
                                        std::size_t count) const {
-  if (widest_ > 0) {
-    return are_spheres_ ? kernels_.bracket_spheres(seeker, pairs, count, widest_)
-                        : kernels_.bracket_rods(seeker, pairs, count, widest_);
+  if (has_width_) {
+    return are_spheres_ ? kernels_.bracket_spheres(seeker, pairs, count)
+                        : kernels_.bracket_rods(seeker, pairs, count);
   }
   return kernels_.bracket(seeker, pairs, count);
+}
+
+// How far apart the axes of the pairs are in contact.
+void NearSearch::set_distances(Needle i, const kernels::Found& found, std::size_t count) {
+  const BoundingVolumes& volumes = *volumes_;
+  float* const distance = pairs_.columns_for(count).column[PairColumns::distance];
+  if (volumes.half_widths.empty()) {
+    std::fill_n(distance, count, 2 * volumes.classes.front()->widest_half);
+    return;
+  }
+  const float own = volumes.half_widths[i];
+  for (std::size_t k = 0; k < count; ++k) {
+    distance[k] = own + volumes.half_widths[Needle(found.needle[k])];
+  }
 }
 
 // The filter sees flights of records, from which needles in contact depart.
@@ -433,6 +455,7 @@ inline void NearSearch::follow(const JustHit& just_hit, const kernels::Found& fo
     from[k] = apart;
     if (!parts) propose(found, k, 0);
   }
+  if (has_width_) set_distances(Needle(seeker.needle), found, count);
   if (margin_ > 0) leave_out_sliding(found, count, never);
   counters_.bracket_steps += bracket(seeker, pairs, count);
   const float ahead = seeker.ahead;

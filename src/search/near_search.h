@@ -104,6 +104,7 @@ class NearSearch {
     Cell origin;             ///< the cell that the needle is in
     bool capsule;            ///< whether it is in a capsule
     float low[3], high[3];   ///< the box around the axis of that, or around its path
+    float touching = 0;      ///< largest distance of axes in contact
     float distance = 0;      ///< of centres from axes, or of axes, in contact or in overlap
     float reach = 0;         ///< how far from that segment centres may be
     std::size_t views = 0, first_view = 0;
@@ -122,6 +123,7 @@ class NearSearch {
   void look_from(Needle i, const ClassCells& own, double ahead, kernels::Seeker& seeker) const;
   void make_seeker(Needle i, const ClassCells& own, double ahead, kernels::Seeker& seeker) const;
   void seen_from(const ClassCells& own, Look& look) const;
+  float touching(Needle i, const ClassCells& there) const;
   void sweep(const ClassCells& own, double ahead, Look& look) const;
   void make_room_for_views(std::size_t count);
   void look_around(Look& look);
@@ -129,6 +131,7 @@ class NearSearch {
   void follow(const JustHit& just_hit, const kernels::Found& found, std::size_t count);
   std::size_t bracket(const kernels::Seeker& seeker, const kernels::PairColumns& pairs,
                       std::size_t count) const;
+  void set_distances(Needle i, const kernels::Found& found, std::size_t count);
   void leave_out_sliding(const kernels::Found& found, std::size_t count, float never);
   void propose(const kernels::Found& found, std::size_t k, double from);
   Shift shift_of(Needle j, std::uint32_t view) const;
@@ -139,7 +142,7 @@ class NearSearch {
   Counters& counters_;
   const kernels::NearKernels& kernels_;
   bool follows_;             ///< whether pairs are followed by SIMD before they are proposed
-  float widest_;             ///< largest distance of axes in contact [unit of length]
+  bool has_width_;           ///< whether axes in contact are apart
   float margin_;             ///< Gas::margin [unit of length]
   bool are_spheres_;         ///< whether no body has an axis
   std::vector<Look> looks_;  ///< the own class first

@@ -1,6 +1,7 @@
 #include "src/search/size_classes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 
@@ -13,16 +14,34 @@ namespace {
 // The longest needles of a class are at most so many times as long as its needles are on average.
 // Measured, 5e4 needles of two lengths, 1:3.2 to 1:20, at n L^3 = 0.1, 1 and 10, L the mean length:
 // up to here one class takes 0.80 to 1.04 of the time that two take, beyond 2.6 it takes 0.99 to 20
-// times that. Rods, and spheres beside rods, are alike.
+// times that. Rods are alike.
 constexpr double most_over_mean = 2.1;
-// Spheres of two sizes, 1:3 to 1:20, at packing fractions of 0.05 to 0.3, take 0.65 to 1.0 in one
-// class, and the more the fewer the large ones.
-constexpr double most_over_mean_of_spheres = 10;
+// Spheres, of which a search looks at many in little time, are in one class up to so many more that
+// it looks at. Measured, 2000 spheres of two sizes, 1:2 to 1:20, at packing fractions of 0.02, 0.2
+// and 0.3: up to here one class takes 0.66 to 1.05 of the time that two take, and 1.0 to 4 times
+// that from 250 on.
+constexpr double most_seen_for_sizes = 150;
 
 std::vector<std::size_t> counts_of_species(const Gas& gas) {
   std::vector<std::size_t> out(gas.composition.size());
   for (const Record& record : gas.records) ++out[record.species];
   return out;
+}
+
+// How many spheres, so many in a volume, a search sees that looks as far as `reach` from its path,
+// in cells of about eight of them.
+double seen_within(double reach, double density) {
+  const double side = std::cbrt(8 / density), width = 2 * reach + 1.4 * side;
+  return density * width * width * (width + side);
+}
+
+// Whether bodies of these extents, `lengths` in sum, may be in one class.
+bool are_alike(const Gas& gas, double longest, double lengths, double count) {
+  const double mean = lengths / count;
+  if (!gas.composition.are_spheres()) return longest <= most_over_mean * mean;
+  const double density = count / (gas.box[0] * gas.box[1] * gas.box[2]);
+  return seen_within(0.5 * (longest + mean), density) - seen_within(mean, density) <=
+         most_seen_for_sizes;
 }
 
 // Puts species into classes, without what is chosen for these.
@@ -33,7 +52,6 @@ SizeClasses grouped_by_length(const Gas& gas) {
   for (std::size_t s = 0; s < counts.size(); ++s) {
     if (counts[s] > 0) needles_of[extent(s)] += counts[s];
   }
-  const double most = gas.composition.are_spheres() ? most_over_mean_of_spheres : most_over_mean;
   SizeClasses out;
   std::map<double, std::size_t> class_of;
   double lengths = 0;  // sum of those in the last class
@@ -41,7 +59,8 @@ SizeClasses grouped_by_length(const Gas& gas) {
     const double added = length * static_cast<double>(count);
     // Named, as clang 14 captures no structured bindings.
     const auto fits = [&, count = count](const SizeClass& group) {
-      return group.longest * static_cast<double>(group.count + count) <= most * (lengths + added);
+      return are_alike(gas, group.longest, lengths + added,
+                       static_cast<double>(group.count + count));
     };
     if (out.all.empty() || !fits(out.all.back())) {
       out.all.emplace_back().longest = length;
@@ -57,6 +76,7 @@ SizeClasses grouped_by_length(const Gas& gas) {
     const std::size_t its_class = class_of.at(extent(s));
     SizeClass& its = out.all[its_class];
     its.axis = std::max(its.axis, gas.composition[s].length);
+    its.diameter = std::max(its.diameter, gas.composition[s].diameter);
     out.of_species[s] = static_cast<std::uint8_t>(its_class);
   }
   return out;
@@ -66,11 +86,23 @@ SizeClasses grouped_by_length(const Gas& gas) {
 // length: needles in capsules search more often, and there is more than one grid to look into.
 constexpr double least_for_capsules = 3;
 
-// Needles per L^3 in a gas of one length in which needles of this class, L long, would collide as
-// often.
-double crowding_of_class(const Gas& gas, double density, double length) {
-  const double by_longest = mean_length(gas.composition), share = length / gas.longest;
-  return density * by_longest * (share * share) * crowding_by_width(density, gas.composition);
+// Needles per L^3 in a gas of one length in which the needles of this class, L long, would collide
+// as often: by the areas of the bodies that two of them exclude, see crowding_by_width().
+double crowding_of_class(const Gas& gas, const SizeClasses& classes, std::size_t number,
+                         double density) {
+  const Composition& composition = gas.composition;
+  double area = 0, members = 0;
+  for (std::size_t a = 0; a < composition.size(); ++a) {
+    const auto count = static_cast<double>(composition[a].count);
+    if (count == 0 || classes.of_species[a] != number) continue;
+    members += count;
+    for (const Species& other : composition.species()) {
+      area += count * static_cast<double>(other.count) * excluded_area(composition[a], other);
+    }
+  }
+  const double square = gas.longest * gas.longest, all = static_cast<double>(gas.size()) * members;
+  return density * (area / (all * square)) * (classes.all[number].longest / gas.longest) *
+         crowding_by_packing(density, composition);
 }
 
 }  // namespace
@@ -88,8 +120,12 @@ SizeClasses size_classes(const Gas& gas, const SearchSetup& setup, BoundingVolum
     out.all = {{gas.longest, gas.size(), kind}};
     out.of_species.assign(gas.composition.size(), 0);
     SizeClass& one = out.all.front();
-    for (const Species& each : gas.composition.species()) {
+    const std::vector<std::size_t> counts = counts_of_species(gas);
+    for (std::size_t s = 0; s < counts.size(); ++s) {
+      if (counts[s] == 0) continue;
+      const Species& each = gas.composition[s];
       one.axis = std::max(one.axis, each.length);
+      one.diameter = std::max(one.diameter, each.diameter);
     }
     one.cell_side = setup.cell_side.value_or(
         length * (cells ? auto_cell_side(by_mean, crowd) : auto_side_for_capsules(by_mean)));
@@ -104,14 +140,18 @@ SizeClasses size_classes(const Gas& gas, const SearchSetup& setup, BoundingVolum
   // Cells of few needles may be emptier than others: no grid is coarser than this, as the cells
   // that threads lock are those of the coarsest one.
   const double widest = std::max(gas.longest, length * auto_cell_side(by_mean, crowd));
-  for (SizeClass& each : out.all) {
-    const double its_crowd = crowding_of_class(gas, density, each.longest);
+  for (std::size_t n = 0; n < out.all.size(); ++n) {
+    SizeClass& each = out.all[n];
+    const double its_crowd = crowding_of_class(gas, out, n, density);
     const double share = static_cast<double>(each.count) / static_cast<double>(gas.size());
     const double cube = each.longest / gas.longest;
     const double own_density = density * share * (cube * cube * cube);
     each.kind = kind;
     if (setup.by_class) {
-      each.kind = its_crowd < least_for_capsules ? BoundingVolume::cell : BoundingVolume::capsule;
+      // Spheres of several classes keep no lists, without which capsules do not pay.
+      each.kind = gas.composition.are_spheres() || its_crowd < least_for_capsules
+                      ? BoundingVolume::cell
+                      : BoundingVolume::capsule;
     }
     if (each.kind == BoundingVolume::cell) {
       each.cell_side = each.longest * auto_cell_side(own_density, its_crowd);

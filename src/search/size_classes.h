@@ -23,6 +23,7 @@ struct SizeClass {
   double cell_side = 0;       ///< wished for [L]
   double capsule_radius = 0;  ///< around the axis and its width; 0 for cells [L]
   double axis = 0;            ///< length of its longest axis [L]
+  double diameter = 0;        ///< the largest one of its needles [L]
   /// Whether its capsules are balls, in which spheres stay through collisions.
   bool in_balls = false;
 };

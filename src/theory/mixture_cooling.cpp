@@ -6,6 +6,7 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "needlework/error.h"
 #include "src/theory/mixture_law.h"
@@ -25,8 +26,9 @@ using MixtureState = std::vector<double>;
 
 struct MixtureCurve::Implementation {
   Implementation(const Composition& composition, double volume,
-                 std::span<const Temperatures> initial)
-      : law_(composition, volume), count_(static_cast<double>(composition.count())) {
+                 std::span<const Temperatures> initial, std::vector<double> contact)
+      : law_(composition, volume, std::move(contact)),
+        count_(static_cast<double>(composition.count())) {
     for (const Temperatures& each : initial) state_.insert(state_.end(), {each.t_tr, each.t_rot});
     state_.insert(state_.end(), {0, 0});
   }
@@ -184,11 +186,14 @@ struct MixtureCurve::Implementation {
 };
 
 MixtureCurve::MixtureCurve(const Composition& composition, double volume,
-                           std::span<const Temperatures> initial) {
+                           std::span<const Temperatures> initial, std::vector<double> contact) {
   require(initial.size() == composition.size(), "initial", static_cast<double>(initial.size()),
           "temperatures of each species");
   for (const Temperatures& each : initial) require_valid(each);
-  implementation_ = std::make_unique<Implementation>(composition, volume, initial);
+  require(contact.empty() || contact.size() == composition.pairs(), "contact",
+          static_cast<double>(contact.size()), "values of each two species");
+  implementation_ =
+      std::make_unique<Implementation>(composition, volume, initial, std::move(contact));
 }
 
 MixtureCurve::MixtureCurve(MixtureCurve&&) noexcept = default;

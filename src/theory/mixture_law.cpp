@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "src/theory/requirements.h"
 
@@ -80,8 +81,9 @@ MixtureLaw::MixtureLaw(const Composition& composition, double volume, WithoutPai
   require_positive("volume", volume);
 }
 
-MixtureLaw::MixtureLaw(const Composition& composition, double volume)
+MixtureLaw::MixtureLaw(const Composition& composition, double volume, std::vector<double> contact)
     : MixtureLaw(composition, volume, WithoutPairs{}) {
+  contact_ = std::move(contact);
   for (std::size_t a = 0; a < composition.size(); ++a) {
     for (std::size_t b = a; b < composition.size(); ++b) pairs_.push_back(tabulated(a, b));
   }
@@ -176,9 +178,11 @@ void MixtureLaw::add(const Pair& pair, std::span<const Temperatures> now, Mixtur
   }
   const double count_a = static_cast<double>(a.count), count_b = static_cast<double>(b.count);
   const bool alike = pair.first == pair.second;
-  const double pairs = alike ? count_a * (count_a - 1) / 2 : count_a * count_b;
+  double pairs = alike ? count_a * (count_a - 1) / 2 : count_a * count_b;
   if (!(pairs > 0)) return;
-  out.collisions[composition_.pair_index(pair.first, pair.second)] = pairs * rate / volume_;
+  const std::size_t index = composition_.pair_index(pair.first, pair.second);
+  if (!contact_.empty()) pairs *= contact_[index];
+  out.collisions[index] = pairs * rate / volume_;
   // Both needles of a pair gain; those of one species are both counted by their own gain.
   const auto gains = [&](std::size_t species, double count, const double* each) {
     const double share = pairs / (volume_ * count);

@@ -14,8 +14,8 @@ namespace needlework::theory {
 /// tabulated once. Immutable, so threads may share it.
 class MixtureLaw {
  public:
-  /// Needs a volume > 0 [L^3].
-  MixtureLaw(const Composition& composition, double volume);
+  /// Needs a volume > 0 [L^3]. `contact`: see MixtureCurve.
+  MixtureLaw(const Composition& composition, double volume, std::vector<double> contact = {});
 
   MixtureRates rates(std::span<const Temperatures> now) const;
   /// The same once, without memory for all pairs at the same time.
@@ -50,6 +50,7 @@ class MixtureLaw {
 
   Composition composition_;
   double volume_;
+  std::vector<double> contact_;  ///< by pair; empty for 1
   std::vector<Pair> pairs_;
 };
 

@@ -50,6 +50,28 @@ TEST_F(BatchSystem, DrawingAStateIsStopped) {
   EXPECT_NE(read("log").find("\"exit_code\":75"), std::string::npos) << read("log");
 }
 
+// Rods of which the placing would take a minute.
+TEST_F(BatchSystem, PlacingRodsIsShownAndStopped) {
+  write("rods.toml", R"(needles.box = 31
+until.time = 1
+[[species]]
+name = "rods"
+count = 3000
+length = 5
+diameter = 1
+)");
+  const std::string command = "run rods.toml --set until.wall_s=1 --progress-every 0.2";
+  const char* const stage = " rods";
+  const Outcome shown = run(command);
+  EXPECT_EQ(shown.exit_code, 75);
+  EXPECT_NE(shown.err.find(stage), std::string::npos) << shown.err;
+  EXPECT_TRUE(shown.complains("stopped by until.wall_s before the run began (nothing is saved)"))
+      << shown.err;
+  for (const char* option : {" --json", " --quiet"}) {
+    EXPECT_EQ(run(command + option).err.find(stage), std::string::npos) << option;
+  }
+}
+
 // Slurm sends SIGUSR1 and then SIGTERM, a limit on CPU time SIGXCPU every second.
 TEST(SignalGuard, IsNotHurriedByWarnings) {
   const cli::SignalGuard guard;

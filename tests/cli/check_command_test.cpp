@@ -183,6 +183,35 @@ TEST_F(CheckCommand, RefusesWhatRunRefuses) {
   }
 }
 
+TEST_F(CheckCommand, KnowsWhatRoomThereIsForRods) {
+  const std::string spheres = R"(until.time = 1
+[[species]]
+name = "spheres"
+count = 864
+length = 0
+diameter = 1
+)";
+  write("spheres.toml", "needles.box = 8.6\n" + spheres);
+  const auto json = run("check spheres.toml --json").json();
+  EXPECT_EQ(json["placing"]["method"], "lattice");
+  EXPECT_EQ(json["placing"]["collisions_per_rod"], 400);
+  EXPECT_GT(json["placing"]["wall_s"].get<double>(), 0.1);
+  EXPECT_GT(json["expected"]["wall_s"].get<double>(), json["placing"]["wall_s"].get<double>());
+  const auto dilute = run("check spheres.toml --json --set needles.box=20").json();
+  EXPECT_EQ(dilute["placing"]["method"], "insertion");
+  EXPECT_NEAR(dilute["placing"]["tries_per_rod"].get<double>(), 1.29, 0.02);
+  EXPECT_NE(run("check spheres.toml").out.find("on a lattice, then 400 elastic collisions each"),
+            std::string::npos);
+  for (const char* command : {"check", "run"}) {
+    const Outcome refused = run(command + std::string(" spheres.toml --set needles.box=5.6"));
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_NE(refused.err.find("864 spheres take up 2.576 of it, and no packing more than 0.7405"),
+              std::string::npos)
+        << refused.err;
+  }
+  EXPECT_FALSE(run("check small.toml --json").json().contains("placing"));
+}
+
 TEST_F(CheckCommand, RefusesAStateThatRunRefuses) {
   Scene scene;
   scene.needles.count = 2;

@@ -12,9 +12,11 @@
 #include "needlework/initial_state.h"
 #include "needlework/simulation.h"
 #include "src/engine/initial_gas.h"
+#include "src/engine/initial_state.h"
 #include "src/engine/make_loop.h"
 #include "src/engine/run.h"
 #include "src/machine/stop_request.h"
+#include "src/scene/initial_state.h"
 #include "src/scene/rod_grid.h"
 #include "src/search/bounding_volumes.h"
 #include "tests/support/courses.h"
@@ -279,6 +281,61 @@ TEST(RodPacking, FindsRoomUpToHighDensity) {
   }
 }
 
+// One big sphere among small ones, which would leave it no place.
+Scene with_one_big(const std::vector<Species>& species, double edge) {
+  Scene scene;
+  scene.needles.box = {edge, edge, edge};
+  scene.species = species;
+  return scene;
+}
+
+TEST(RodPacking, PutsTheLargestFirst) {
+  const Species small{.name = "small", .count = 2000, .length = 0, .diameter = 0.5};
+  const Species big{.name = "big", .count = 1, .length = 0, .mass = 100, .diameter = 10};
+  for (const auto& species : {std::vector{small, big}, std::vector{big, small}}) {
+    const Scene scene = with_one_big(species, 21);
+    const DrawnState drawn = draw_state(scene);
+    EXPECT_EQ(overlaps(scene, drawn.state, 0), 0);
+    EXPECT_TRUE(drawn.placement.starts_with("2001 rods inserted one by one, in 1.1"))
+        << drawn.placement;
+    // Ids are in the order of the scene.
+    EXPECT_EQ(drawn.state.species.front(), 0);
+    EXPECT_EQ(drawn.state.species.back(), 1);
+    const PlannedPlacement plan = plan_placement(scene);
+    EXPECT_FALSE(plan.on_lattice);
+    EXPECT_NEAR(plan.tries, 1.14, 0.02);
+  }
+}
+
+// 864 spheres at 0.711: as many as 6 x 6 x 6 cells of fcc. With walls, hexagonal layers fit better.
+TEST(RodPacking, PutsSpheresOnFcc) {
+  Scene scene = rods_of(864, 0, 0.711);
+  EXPECT_TRUE(plan_placement(scene).on_lattice);
+  const std::optional<State> lattice = place_rods_on_lattice(scene, RodOrder::parallel);
+  ASSERT_TRUE(lattice);
+  EXPECT_EQ(overlaps(scene, *lattice, 0), 0);
+  // A box of three layers of 4 x 4 spheres, which square cells do not fit.
+  scene = rods_of(48, 0, 0.7);
+  const double stretch = 1 + 1e-3;
+  scene.needles.box = {4 * stretch, 4 * std::sqrt(0.75) * stretch,
+                       3 * std::sqrt(2.0 / 3) * stretch};
+  const std::optional<State> layers = place_rods_on_lattice(scene, RodOrder::parallel);
+  ASSERT_TRUE(layers);
+  EXPECT_EQ(overlaps(scene, *layers, 0), 0);
+}
+
+// Tries by the estimate, which is that of a fluid, and those that insertion takes.
+TEST(RodPacking, EstimatesTheTriesOfInsertion) {
+  for (const auto& [length, packing] :
+       {std::pair(0.0, 0.1), std::pair(0.0, 0.25), std::pair(5.0, 0.15)}) {
+    const Scene scene = rods_of(500, length, packing);
+    const Insertion done = insert_rods(scene, 1000000, 1000);
+    ASSERT_EQ(done.placed, 500u);
+    const double tries = static_cast<double>(done.tries) / 500;
+    EXPECT_NEAR(std::log(plan_placement(scene).tries / tries), 0, 0.5) << length << " " << tries;
+  }
+}
+
 // The largest eigenvalue of Q = <3 u u - 1> / 2, by powers of Q + 1, whose least one is 1/2.
 double nematic_order(const State& state) {
   std::array<double, 3> axis = {0.5, 0.6, 0.7};
@@ -332,14 +389,19 @@ std::string refusal(const Scene& scene) {
 
 TEST(RodPacking, SaysWhatItCannotPlace) {
   // More than the densest packing of spheres, and than insertion reaches.
-  EXPECT_EQ(refusal(rods_of(12, 0, 0.755)),
-            "initial.packing = \"auto\": no lattice of parallel rods has room for 12 rods at a "
-            "packing fraction of 0.755: expected a larger box, or edges that fit the rods better");
-  Scene scene = rods_of(11, 0, 0.7);
+  Scene scene = rods_of(23, 0, 0.5);
+  scene.needles.box = {2.5, 2.5, 2.5};
+  EXPECT_EQ(refusal(scene),
+            "needles.box = [2.5, 2.5, 2.5]: 23 spheres take up 0.7707 of it, and no packing more "
+            "than 0.7405: expected a larger box");
+  EXPECT_EQ(refusal(rods_of(13, 0, 0.73)),
+            "initial.packing = \"auto\": no lattice of spheres has room for 13 spheres at a "
+            "packing fraction of 0.73: expected a larger box, or edges that fit them better");
+  scene = rods_of(11, 0, 0.7);
   scene.initial.packing = "insertion";
   EXPECT_EQ(refusal(scene),
-            "initial.packing = \"insertion\": a rod found no place in 1000000 tries: expected "
-            "\"lattice\", or a larger box");
+            "initial.packing = \"insertion\": at a packing fraction of 0.7 a rod would find no "
+            "place in 1000000 tries: expected \"lattice\", or a larger box");
   scene = rods_of(400, 5, 0.7);
   scene.initial.packing = "crossed";
   EXPECT_EQ(

@@ -46,13 +46,14 @@ TEST(BracketSpheres, GivesTheTimeOfTheFirstContactOnEveryInstructionSet) {
     const Seeker seeker = test::seeker_of(test::motion_of(drawn.first, 0, 1, 0), until, 0);
     const Motion other = test::motion_of(drawn.second, 0, 1, 0);
     // One pair, or one in a row of others.
-    const std::vector<test::PairRow> rows(
-        n % 3 == 0 ? 1 : 19, test::row_of(seeker, other, 0, static_cast<float>(until)));
+    test::PairRow row = test::row_of(seeker, other, 0, static_cast<float>(until));
+    row[PairColumns::distance] = distance;
+    const std::vector<test::PairRow> rows(n % 3 == 0 ? 1 : 19, row);
     std::vector<float> scalar;
     for (const Isa isa : available()) {
       test::PairTable table(rows);
       const PairColumns view = table.view();
-      near_kernels(isa).bracket_spheres(seeker, view, rows.size(), distance);
+      near_kernels(isa).bracket_spheres(seeker, view, rows.size());
       const std::vector<float> from(view.column[PairColumns::from],
                                     view.column[PairColumns::from] + rows.size());
       if (scalar.empty()) scalar = from;

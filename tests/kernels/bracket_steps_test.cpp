@@ -137,8 +137,8 @@ TEST_P(FreeShares, EndBeforeTheContact) {
       const bool later = random.coin() && contact + share * h <= pair.row[PairColumns::until];
       const auto s = static_cast<float>(later ? contact + share * h : contact - share * h);
       const exposed::SimdSample e = exposed::sample(loaded.simd, Floats(s));
-      const exposed::SimdShares free =
-          exposed::free_around<false>(e, loaded.bounds, Floats(static_cast<float>(h)), 0);
+      const exposed::SimdShares free = exposed::free_around<false>(
+          e, loaded.bounds, Floats(static_cast<float>(h)), Floats(0.0f));
       const double distance = std::abs(contact - s), claimed = (later ? free.before : free.after).v;
       ++contacts;
       near += claimed * h > 0.9 * distance;

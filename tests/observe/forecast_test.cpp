@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <vector>
+
+#include "needlework/simulation.h"
 
 namespace needlework {
 namespace {
@@ -118,6 +121,49 @@ TEST(Forecast, OfAGasAtRestIsItsEndTime) {
   ASSERT_TRUE(result);
   EXPECT_EQ(result->time, 7);
   EXPECT_EQ(result->collisions_per_needle, 0);
+}
+
+// Bodies of one species or two, and how many collisions of each they really have.
+double counted_over_expected(const std::vector<Species>& species, double packing) {
+  Scene scene;
+  scene.species = species;
+  double volume = 0;
+  for (const Species& each : species) volume += static_cast<double>(each.count) * each.volume();
+  const double edge = std::cbrt(volume / packing);
+  scene.needles.box = {edge, edge, edge};
+  Simulation gas(scene);
+  Scene::Until until;
+  until.collisions_per_needle = 10;  // from what insertion or a lattice leaves
+  gas.advance(until);
+  const double before = gas.time(), collisions = static_cast<double>(gas.collisions());
+  until.collisions_per_needle = 30;
+  gas.advance(until);
+  const Composition composition = scene.composition();
+  Scene::Until span;
+  span.time = gas.time() - before;
+  const std::vector<theory::Temperatures> start(species.size(), {1, 1});
+  const auto expected = forecast(composition, edge * edge * edge, start, span);
+  return 2 * (static_cast<double>(gas.collisions()) - collisions) /
+         static_cast<double>(composition.count()) / expected->collisions_per_needle;
+}
+
+// The values of contact are those of fluids, good to a few percent; of so few bodies the rates
+// scatter by one.
+TEST(Forecast, CountsTheCollisionsOfDenseFluids) {
+  const auto rods = [](std::uint64_t count, double length, double width, double mass = 1) {
+    return Species{.name = "rods" + std::to_string(width),
+                   .count = count,
+                   .length = length,
+                   .mass = mass,
+                   .k = length > 0 ? homogeneous_k(length, width) : 6,
+                   .diameter = width};
+  };
+  EXPECT_NEAR(counted_over_expected({rods(250, 0, 1)}, 0.1), 1, 0.05);
+  EXPECT_NEAR(counted_over_expected({rods(250, 0, 1)}, 0.4), 1, 0.05);
+  EXPECT_NEAR(counted_over_expected({rods(250, 1, 1)}, 0.3), 1, 0.08);
+  EXPECT_NEAR(counted_over_expected({rods(150, 5, 1)}, 0.3), 1, 0.1);
+  EXPECT_NEAR(counted_over_expected({rods(200, 0, 0.5), rods(50, 0, 1, 8)}, 0.35), 1, 0.07);
+  EXPECT_NEAR(counted_over_expected({rods(100, 2, 0.8), rods(50, 0, 1.5, 2)}, 0.3), 1, 0.1);
 }
 
 // One species, told as two, is forecast to end where that one does.

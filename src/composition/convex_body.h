@@ -1,0 +1,38 @@
+// Measures of rods of finite width as convex bodies, by which theories of fluids know them.
+#pragma once
+
+#include <numbers>
+
+#include "needlework/composition.h"
+
+namespace needlework {
+
+/// Of one body or, added up, of all in a unit of volume.
+struct ConvexBody {
+  double radius = 0;   ///< of curvature, the mean of both over the surface [L]
+  double surface = 0;  ///< [L^2]
+  double volume = 0;   ///< [L^3]
+};
+
+inline ConvexBody convex_body(const Species& species) {
+  const double length = species.length, width = species.diameter;
+  return {length / 4 + width / 2, std::numbers::pi * width * (length + width), species.volume()};
+}
+
+/// Adds so many of these bodies per volume. [L^-3]
+inline void add(ConvexBody& fluid, const ConvexBody& each, double density) {
+  fluid.radius += density * each.radius;
+  fluid.surface += density * each.surface;
+  fluid.volume += density * each.volume;
+}
+
+/// Volume from which the centre of a rod is excluded by another one, averaged over their
+/// directions; 0 for needles. [L^3]
+inline double excluded_volume(const Species& a, const Species& b) {
+  constexpr double pi = std::numbers::pi;
+  const double width = 0.5 * (a.diameter + b.diameter);
+  return 0.5 * pi * width * a.length * b.length +
+         pi * width * width * (a.length + b.length + 4.0 / 3 * width);
+}
+
+}  // namespace needlework

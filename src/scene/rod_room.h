@@ -1,0 +1,24 @@
+// How much room rods of finite width take up, and leave.
+#pragma once
+
+#include <cstdint>
+
+#include "needlework/scene.h"
+
+namespace needlework {
+
+/// No packing is known in which these rods take up a larger share of the volume: spheres of one
+/// size cannot. Rods of one shape lie parallel in it, in gaps of layers below. Of several shapes,
+/// each takes up as much of what the others leave. [1]
+double densest_packing(const Composition& composition);
+
+/// Throws InputError for rods that take up more of the box than that.
+void require_room_for_rods(const Scene& scene);
+
+/// Tries of a rod, on average, when rods are inserted one by one, the largest first: by the scaled
+/// particle theory of a fluid of convex bodies (R. M. Gibbons, Mol. Phys. 17, 81 (1969)), in which
+/// rods are less in each other's way than where they have been inserted. Infinite for a packing
+/// fraction of 1 or more.
+double estimated_tries(const Composition& composition, double volume);
+
+}  // namespace needlework
