@@ -87,7 +87,8 @@ class CourseSearch {
   // The first contact of the stretch. False if there is none.
   bool search(const Stretch& stretch, int depth, Contact& out) {
     if (stretch.end < from_ || stretch.begin > until_) return false;
-    const bool starts = pair_.touch.touching && stretch.begin == 0;
+    // f(0) = 0 to the last digit. Of needles that merely touch f is continued, and its root ahead.
+    const bool starts = pair_.touch.touching && pair_.touch.gap == 0 && stretch.begin == 0;
     const double half = 0.5 * (stretch.end - stretch.begin), middle = stretch.begin + half;
     if (depth == last_depth || !(stretch.begin < middle && middle < stretch.end)) {
       // Not at a touch that leads to no other side, nor where f cannot be told from 0.

@@ -295,18 +295,22 @@ void Audit::add_kick(const State& after) {
 
 // What happens at the instant of a kick happens before it.
 void Audit::check_kick(const Instant& now, const std::vector<Needle>& after) {
-  Vector<Quad> of_all{};
+  Kicks::Change of_all{};
   Quad mass = 0;
   double largest = 0;
   std::vector<Kicks::Change> changes;
   for (Index i = 0; i < needles_.size(); ++i) {
     const Kicks::Change& change = changes.emplace_back(kicks_->of(ids_[i], findings_.kicks));
     const Quad its_mass = needles_[i].body.mass;
-    of_all = of_all + change.v * its_mass;
+    of_all.v = of_all.v + change.v * its_mass;
+    of_all.v_off += change.v_off * needles_[i].body.mass;
     mass += its_mass;
     largest = std::max(largest, magnitude(norm(change.v)));
   }
-  if (mass > 0) of_all = of_all * Quad(1 / mass);
+  if (mass > 0) {
+    of_all.v = of_all.v * Quad(1 / mass);
+    of_all.v_off /= magnitude(mass);
+  }
   for (Index i = 0; i < needles_.size(); ++i) {
     if (now < needles_[i].record.time) {
       report(Kind::wrong_order, i, i, now);

@@ -27,6 +27,16 @@ Record record_of(const Stance& stance, const Instant& now) {
           to<double>(cross(stance.u, stance.du))};
 }
 
+/// By what a needle in contact may be off from its motion, of lengths, angles and velocities.
+double noise_of(const JointMotion& motion, int needle, double s) {
+  return contact_noise * motion.grown(s) + motion.spread(needle, s);
+}
+
+/// The same of the velocity of two needles at their contact.
+Extended normal_noise(const Needle& first, const Needle& second, const Touch& touch) {
+  return 8 * std::max({contact_noise, first.worn * 0x1p-50, second.worn * 0x1p-50}) * touch.speeds;
+}
+
 // A needle in free flight, as if it had an event now.
 Needle flown_to(const Needle& needle, const Instant& now) {
   const Flight<Extended> flight(needle.record);
@@ -48,7 +58,7 @@ Needle Audit::present(Index i, const Instant& now) const {
   const double s = elapsed<double>(joint.begin, now).middle;
   joint.motion.follow(s);
   Needle out(record_of(joint.motion.at(joint.index(i), s), now), needles_[i].body);
-  out.worn = contact_noise * joint.motion.grown(s) * 0x1p50;
+  out.worn = noise_of(joint.motion, joint.index(i), s) * 0x1p50;
   return out;
 }
 
@@ -186,7 +196,7 @@ Audit::Judgement Audit::judge(Index a, Index b, const Instant& now,
     enters = may_enter(before, bodies, speed > 0 ? -1 : 1, given);
     if (enters == Answer::yes && crowded == Answer::open) enters = Answer::open;
   }
-  const bool is_noise = size <= 8 * contact_noise * touch.speeds;
+  const bool is_noise = size <= normal_noise(first, second, touch);
   if (entered) {
     if (enters != Answer::no || is_noise) may_be(0, false);
     return best;
@@ -228,7 +238,8 @@ void Audit::note_meeting(Index a, Index b, const Instant& now, bool crowded) {
 void Audit::enter_contact(const Instant& now, const Collision& event) {
   const Index a = index_of(event.first), b = index_of(event.second);
   const int side = event.normal_velocity < 0 ? 1 : -1;
-  JointMotion motion(needles_[a], needles_[b], nearest_separation(needles_[a], needles_[b]), side);
+  JointMotion motion(needles_[a], needles_[b], nearest_separation(needles_[a], needles_[b]), side,
+                     space_.rounding());
   joints_[a] = joints_[b] = std::make_shared<Joint>(Joint{a, b, now, std::move(motion)});
   take_continuation(a, b);  // f stays 0 until the contact ends
 }
@@ -270,10 +281,10 @@ void Audit::go_on_sliding(const Cut& cut) {
   const Vector<double> r12 = nearest_separation(needles_[a], needles_[b]);
   const std::array<Body, 2> bodies = {needles_[a].body, needles_[b].body};
   const Touch touch(relative_state(needles_[a].record, needles_[b].record, r12), bodies);
-  const bool may_stay = std::abs(touch.normal_velocity) <= 8 * contact_noise * touch.speeds &&
+  const bool may_stay = std::abs(touch.normal_velocity) <= normal_noise(renewed, renewed, touch) &&
                         touch.pressing(side) > -touch.noise;
   if (!may_stay && !resumed_) report(Kind::missed, a, b, cut.time);
-  JointMotion motion(needles_[a], needles_[b], r12, side);
+  JointMotion motion(needles_[a], needles_[b], r12, side, space_.rounding());
   joints_[a] = joints_[b] = std::make_shared<Joint>(Joint{a, b, cut.time, std::move(motion)});
 }
 
@@ -363,14 +374,16 @@ double Audit::excess_over_contact(const Joint& joint, const Instant& now,
   const double sine = static_cast<double>(touch.sine);
   const double speeds = static_cast<double>(touch.speeds);
   const double length = std::min(a.body.length, b.body.length);
-  const double noise = contact_noise * joint.motion.grown(elapsed<double>(joint.begin, now).middle);
+  const double s = elapsed<double>(joint.begin, now).middle;
+  const std::array noises = {noise_of(joint.motion, 0, s), noise_of(joint.motion, 1, s)};
   const std::array arms = {event.arm_first, event.arm_second};
   for (std::size_t i = 0; i < 2; ++i) {
     const Record& record = needles[i]->record;
     const Body& body = needles[i]->body;
     const StateAfterCollision& after = event.after[i];
+    const double noise = noises[i];
     add(static_cast<double>(touch.arms[i] - arms[i]),
-        (4 * noise * length + space_.rounding()) / sine);
+        (4 * std::max(noises[0], noises[1]) * length + space_.rounding()) / sine);
     for (int axis = 0; axis < 3; ++axis) {
       double moved = after.position[axis] - record.r[axis];
       moved -= space_.box[axis] * space_.boxes_along<double>(axis, moved);
@@ -406,7 +419,7 @@ void Audit::check_contact_end(const Instant& now, const Collision& event) {
   const Touch touch(relative_state(first.record, second.record, nearest_separation(first, second)),
                     {first.body, second.body});
   const Extended apart = joint->motion.side() * touch.normal_velocity;
-  const Extended noise = 8 * contact_noise * touch.speeds;
+  const Extended noise = normal_noise(first, second, touch);
   if (excess > 1 ? apart > noise : apart < -noise) report(Kind::wrong_rule, a, b, now);
 }
 

@@ -26,10 +26,13 @@ GuidedFlight::GuidedFlight(const Guide& first, const Guide& second, const Shift&
 
 void GuidedFlight::bound(double duration) {
   std::array<JointMotion::Most, 2> most;
-  speed_ = spin_ = acceleration_ = turned_faster_ = 0;
+  speed_ = spin_ = acceleration_ = turned_faster_ = spread_ = 0;
   for (std::size_t i = 0; i < 2; ++i) {
     Course& course = courses_[i];
-    if (course.joint) course.joint->follow(course.delay + duration);
+    if (course.joint) {
+      course.joint->follow(course.delay + duration);
+      spread_ += course.joint->spread(course.index, course.delay + duration);
+    }
     most[i] = course.most(duration);
     omega_[i] = most[i].turning;
     speed_ += most[i].speed;
@@ -87,13 +90,13 @@ double GuidedFlight::bend(double, double, double distance) const {
 // Places are uncertain by what steps of the engine leave over, and by what it loses of centres as
 // it adds up their course, directors by the former.
 double GuidedFlight::limit(const Sample& sample, double, double half) const {
-  const double distance = sample.distance + speed_ * half;
-  return (space_.rounding() + contact_noise * size()) * std::min(1.0, sample.sine + spin_ * half) +
-         contact_noise * distance + start_.gap_error;
+  const double distance = sample.distance + speed_ * half, noise = contact_noise + spread_;
+  return (space_.rounding() + noise * size()) * std::min(1.0, sample.sine + spin_ * half) +
+         noise * distance + start_.gap_error;
 }
 
 double GuidedFlight::margin_limit(const Sample& sample, double) const {
-  return 4 * (space_.rounding() + contact_noise * (size() + sample.distance));
+  return 4 * (space_.rounding() + (contact_noise + spread_) * (size() + sample.distance));
 }
 
 }  // namespace needlework::audit

@@ -43,6 +43,7 @@ class GuidedFlight final : public PairMotion {
 
   std::array<Course, 2> courses_;
   Vector<Extended> image_;  ///< where the second needle's box is
+  double spread_ = 0;       ///< of both, as JointMotion::spread()
   Extended offset_ = 0;     ///< correction of f(0) to its value in the previous flight
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 #include "src/audit/tolerances.h"
 
@@ -14,6 +16,12 @@ constexpr double truncation = 0x1p-66;
 constexpr std::size_t most_steps = 4000;
 /// What halving does at most to an interval of time.
 constexpr int deepest = 52;
+/// Relative uncertainty of the numbers at the beginning: what the engine rounds in its steps, too.
+constexpr double uncertain = 0x1p-49;
+/// Neighbours begin so many times farther away, so that their distance has digits.
+constexpr double magnified = 0x1p10;
+/// By the bits of each, 18 numbers at the beginning of a neighbour are larger or smaller.
+constexpr std::array<std::uint32_t, 3> aside = {0x2d1a7, 0x1b8e5, 0x34c6b};
 
 template <class Series>
 Extended value(const Series& a, Extended t) {
@@ -89,11 +97,64 @@ JointMotion::JointMotion(const RelativeState& begin, const std::array<Body, 2>& 
 }
 
 JointMotion::JointMotion(const Needle& first, const Needle& second, const Vector<double>& r12,
-                         int side)
+                         int side, double rounding)
     : JointMotion(relative_state(first.record, second.record, r12), {first.body, second.body},
                   side) {
   centre_ = {to<Extended>(first.record.r), to<Extended>(second.record.r)};
   drift_ = to<Extended>(first.record.v) * share_[1] + to<Extended>(second.record.v) * share_[0];
+  add_neighbours(rounding);
+}
+
+// Of the velocities, what rounding has added to f' is taken off, as the engine does after each
+// step.
+void JointMotion::add_neighbours(double rounding) {
+  const RelativeState begin = last_;
+  const Touch touch(begin, bodies_);
+  const Extended length = (Extended(bodies_[0].length) + bodies_[1].length) / 2;
+  const Extended speed = touch.speeds + norm(drift_);
+  const auto spin = [&](const Vector<Extended>& du, std::size_t i) {
+    return norm(du) + share_[i] * bodies_[i].k / bodies_[i].length * touch.speeds;
+  };
+  const std::array scales = {length + rounding / uncertain,
+                             speed,
+                             Extended(1),
+                             spin(begin.du1, 0),
+                             Extended(1),
+                             spin(begin.du2, 1)};
+  for (std::uint32_t signs : aside) {
+    RelativeState state = begin;
+    const std::array parts = {&state.r, &state.v, &state.u1, &state.du1, &state.u2, &state.du2};
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      for (int axis = 0; axis < 3; ++axis, signs >>= 1) {
+        (*parts[i])[axis] += (signs & 1 ? 1 : -1) * magnified * uncertain * scales[i];
+      }
+    }
+    for (const auto& [u, du] : {std::pair(&state.u1, &state.du1), {&state.u2, &state.du2}}) {
+      *u = *u * (1 / norm(*u));
+      *du = *du - *u * dot(*u, *du);
+    }
+    const Touch moved(state, bodies_);
+    neighbours_.emplace_back(after_change(state, bodies_, moved, -moved.normal_velocity), bodies_,
+                             side_);
+  }
+}
+
+double JointMotion::spread(int needle, double s) const {
+  const RelativeState here = state_at(s);
+  const Body& body = bodies_[needle];
+  const Extended speeds = Touch(here, bodies_).speeds, share = share_[needle];
+  Extended most = 0;
+  for (const JointMotion& each : neighbours_) {
+    const RelativeState there = each.state_at(s);
+    const bool first = needle == 0;
+    const Extended turned = norm(first ? there.u1 - here.u1 : there.u2 - here.u2);
+    most = std::max({most, norm(there.r - here.r) * share / body.length, turned});
+    if (!(speeds > 0)) continue;
+    const Extended faster = norm(first ? there.du1 - here.du1 : there.du2 - here.du2);
+    most = std::max({most, norm(there.v - here.v) * share / speeds,
+                     faster * body.length / (2 + body.k) / speeds});
+  }
+  return static_cast<double>(most) / magnified;
 }
 
 bool JointMotion::follow(double until) {
@@ -112,7 +173,7 @@ bool JointMotion::follow(double until) {
     if (std::isfinite(span)) last_ = state_at(known_ + span);
     known_ += span;
   }
-  return true;
+  return std::ranges::all_of(neighbours_, [&](JointMotion& each) { return each.follow(until); });
 }
 
 JointMotion::Step JointMotion::step_from(const RelativeState& state, double begin) const {
@@ -237,9 +298,18 @@ JointMotion::Most JointMotion::most(int needle, double begin, double end) const 
   return out;
 }
 
-Extended JointMotion::noise_of(const Step& step, int room) const {
-  if (room == 0) return contact_noise * step.force_scale;
-  return contact_noise * Extended(bodies_[room > 2].length);
+double JointMotion::noise_of(int room, double s) const {
+  const Step& step = step_at(s);
+  const auto value_at = [&](const Step& of) {
+    return value(of.room[room], Extended(s) - of.begin);
+  };
+  double out = 0;
+  for (const JointMotion& each : neighbours_) {
+    const Extended apart = value_at(each.step_at(s)) - value_at(step);
+    out = std::max(out, static_cast<double>(std::abs(apart)) / magnified);
+  }
+  return out + contact_noise *
+                   (room == 0 ? static_cast<double>(step.force_scale) : bodies_[room > 2].length);
 }
 
 std::array<JointMotion::Room, JointMotion::rooms> JointMotion::rooms_at(double s) const {
@@ -248,8 +318,7 @@ std::array<JointMotion::Room, JointMotion::rooms> JointMotion::rooms_at(double s
   std::array<Room, rooms> out;
   for (int n = 0; n < rooms; ++n) {
     out[n] = {static_cast<double>(value(step.room[n], t)),
-              static_cast<double>(slope(step.room[n], t)), static_cast<double>(noise_of(step, n)),
-              n == 0};
+              static_cast<double>(slope(step.room[n], t)), noise_of(n, s), n == 0};
   }
   return out;
 }
@@ -277,8 +346,8 @@ std::optional<double> JointMotion::first_below(double noises, double from, doubl
                  high = std::min(step.span, to - step.begin);
     std::optional<double> first;
     for (int n = 0; n < rooms; ++n) {
-      const auto found =
-          below(step, step.room[n], noises * noise_of(step, n), low, first.value_or(high), 0);
+      const auto found = below(step, step.room[n], noises * noise_of(n, step.begin + high), low,
+                               first.value_or(high), 0);
       if (found) first = found;
     }
     if (first) return step.begin + *first;

@@ -27,9 +27,10 @@ struct Stance {
 class JointMotion {
  public:
   /// The contact begins with these records, of one time; `r12` is r1 - r2 of the image in contact,
-  /// and `side` the sign of f before.
-  JointMotion(const Needle& first, const Needle& second, const Vector<double>& r12, int side);
-  /// Of needles of which only the relative motion matters.
+  /// `side` the sign of f before, and `rounding` what may be lost of centres in records. [L]
+  JointMotion(const Needle& first, const Needle& second, const Vector<double>& r12, int side,
+              double rounding = 0);
+  /// Of needles of which only the relative motion matters, and no spread.
   JointMotion(const RelativeState& begin, const std::array<Body, 2>& bodies, int side);
 
   int side() const { return side_; }
@@ -51,6 +52,10 @@ class JointMotion {
   /// By so much small differences at the beginning may have grown: 1 and, for all steps, by how
   /// much the contact has changed.
   double grown(double s) const { return step_at(s).grown; }
+  /// By what share of its length, of 1 and of relative velocities the rounding of numbers at the
+  /// beginning may have moved one needle by a time, apart from what grown() says: what motions that
+  /// begin next to this one have become.
+  double spread(int needle, double s) const;
 
   /// What is positive while the contact lasts: the push of the force, and the room between each
   /// contact point and both tips of its needle.
@@ -80,7 +85,8 @@ class JointMotion {
   const Step& step_at(double s) const;
   std::optional<double> below(const Step& step, const Series& room, Extended level, double low,
                               double high, int depth) const;
-  Extended noise_of(const Step& step, int room) const;
+  void add_neighbours(double rounding);
+  double noise_of(int room, double s) const;
 
   std::array<Body, 2> bodies_;
   int side_;
@@ -90,9 +96,10 @@ class JointMotion {
   std::array<Vector<Extended>, 2> centre_;  ///< of the needles at the beginning
   Vector<Extended> apart_, drift_;          ///< r at the beginning; velocity of the centre of mass
   std::vector<Step> steps_;
-  RelativeState last_;    ///< at the end of the last step
-  bool is_lost_ = false;  ///< whether it cannot be resolved from there on
-  double known_ = 0;      ///< until when the motion has been computed
+  RelativeState last_;                   ///< at the end of the last step
+  bool is_lost_ = false;                 ///< whether it cannot be resolved from there on
+  double known_ = 0;                     ///< until when the motion has been computed
+  std::vector<JointMotion> neighbours_;  ///< that begin a little aside
 };
 
 }  // namespace needlework::audit

@@ -17,6 +17,8 @@ class Kicks {
   struct Change {
     Vector<Quad> v;  ///< before the momentum of all is taken off
     Vector<Quad> w;  ///< of which the part along the director does not count
+    /// By how much components are off as the squares of a point next to the circle are rounded.
+    double v_off = 0, w_off = 0;
   };
   Change of(std::uint32_t id, std::uint64_t kick) const;
 
@@ -26,10 +28,10 @@ class Kicks {
 };
 
 /// Largest difference of a needle's record after a kick from what the kick makes of it, in units of
-/// what rounding may explain; a value above 1 is an error. `of_all` is the velocity that is taken
-/// off all needles, and `largest` at least the size of each change of a velocity.
+/// what rounding may explain; a value above 1 is an error. `of_all` holds the velocity that is
+/// taken off all needles, and `largest` is at least the size of each change of a velocity.
 double excess_over_kick(const Needle& before, const Vector<double>& gravity, const Record& after,
-                        const Kicks::Change& change, const Vector<Quad>& of_all, double largest,
+                        const Kicks::Change& change, const Kicks::Change& of_all, double largest,
                         const Space& space);
 
 }  // namespace needlework::audit

@@ -118,6 +118,25 @@ TEST(AuditOfContacts, FindsNothingWrongWithMixtures) {
   expect_clean_run(small, 10, 12);
 }
 
+// A light needle that swings on a heavy one: what is rounded at the beginning of a contact has grown
+// by 2e4 at its end.
+TEST(AuditOfContacts, KnowsHowFarRoundingGrowsBetweenHeavyAndLightNeedles) {
+  Scene scene = scene_of(0, 1);
+  scene.needles.box = {3.075, 4.603, 3.133};
+  scene.needles.seed = 69;
+  scene.collisions = {.epsilon = 0.5, .sliding = true};
+  scene.species = {
+      {.name = "long", .count = 40, .length = 1.2152842639254506, .mass = 1e6, .k = 1},
+      {.name = "middle",
+       .count = 5,
+       .length = 1.0039665989085633,
+       .mass = 1e6,
+       .k = 1,
+       .t_rot = 0},
+      {.name = "light", .count = 5, .length = 0.3, .mass = 1e-3, .k = 100, .t_rot = 0}};
+  expect_clean_run(scene, 2 * audit_share, 2);
+}
+
 // Redraws of a thermostat are strikes, and the threshold is not known.
 TEST(AuditOfContacts, FindsNothingWrongWithTheThermostat) {
   Scene scene = sliding_gas(100, 1, 0.4);

@@ -46,6 +46,17 @@ TEST(AuditOfKicks, FindsNothingWrongWithTheEngine_long) {
   }
 }
 
+// Of points next to the circle, whose logarithm is that of a number which rounding has moved by
+// more than its own digits: 4e-7 and 3e-9 inside it.
+TEST(AuditOfKicks, KnowsHowFarRoundingMovesNumbersNextToTheCircle) {
+  for (const std::uint64_t seed : {23136u, 437350u}) {
+    Scene scene = kicked();
+    scene.needles.seed = seed;
+    scene.initial.t_tr = scene.initial.t_rot = 0;
+    expect_clean(audited(scene, 0.1), std::to_string(seed));
+  }
+}
+
 Scene sparse() {
   Scene scene = scene_of(30, 6);
   scene.driving.kicks = {.every = 0.5, .translational = 1, .rotational = 2};
