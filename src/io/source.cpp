@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <system_error>
 #include <type_traits>
@@ -48,7 +50,17 @@ hid_t open_growing(const std::string& path, const Handle& access) {
     if (attempt > 0) usleep(1000);
     file = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.get());
   }
-  return file < 0 ? H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()) : file;
+  if (file < 0) return H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get());
+  // In this mode HDF5 1.14 opens files that are cut short, too.
+  haddr_t end = 0;
+  check(H5Fget_eoa(file, &end), path);
+  const std::uintmax_t bytes = std::filesystem::file_size(path);
+  if (end > bytes) {
+    H5Fclose(file);
+    throw IoError(
+        fmt::format("{}: damaged or cut short: HDF5: {} bytes of {} are there", path, bytes, end));
+  }
+  return file;
 }
 
 [[noreturn]] void fail_to_open(const std::string& path, const LockState& locks) {

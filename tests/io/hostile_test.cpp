@@ -136,8 +136,17 @@ TEST_F(Hostile, AttributesWhoseSizeOverflowsAreRefused) {
   }
   ASSERT_GT(found, 0);
   write_bytes(path, bytes);
-  EXPECT_NE(complaint<InputError>(path).find("2305843009213693952 texts of 8 bytes"),
-            std::string::npos);
+  // HDF5 1.14 refuses them itself.
+  const auto is_refused = [&](const std::string& reason) {
+    try {
+      read_last_frame(path);
+    } catch (const std::exception& error) {
+      return std::string(error.what()).find(reason) != std::string::npos;
+    }
+    return false;
+  };
+  EXPECT_TRUE(is_refused("2305843009213693952 texts of 8 bytes") ||
+              is_refused("HDF5: data size exceeds addressable range"));
 }
 
 // Zeros, compressed twice: a file of some kilobytes that stands for gigabytes.
