@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "needlework/error.h"
+#include "src/cli/csv.h"
 #include "src/cli/json.h"
 
 namespace needlework::bench {
@@ -202,16 +203,10 @@ Json json_of(const Results& results) {
 
 std::string csv_of(const Results& results) {
   // Names of scenes are those of files, and may hold anything.
-  const auto quoted = [](const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == text.npos) return text;
-    std::string out = "\"";
-    for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return out + '"';
-  };
   const auto text_of = [&](const Json& object, const char* key) {
     const auto value = object.find(key);
     if (value == object.end() || value->is_null()) return std::string();
-    return value->is_string() ? quoted(value->get<std::string>()) : value->dump();
+    return value->is_string() ? cli::quoted(value->get<std::string>()) : value->dump();
   };
   std::vector<const char*> keys;
   for (const NameParts::Named& each : NameParts::all) keys.push_back(each.name);

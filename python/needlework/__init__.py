@@ -22,6 +22,7 @@ from .frames import Frame, Frames
 from .gsd_file import to_gsd
 from .order import NematicOrder, nematic_order
 from .reading import Events, Recording, Series, VelocitiesSet, read
+from .sweeps import SweepSummary
 from .simulation import (Counters, EnergyBudget, SceneWarning, Simulation, SlidingContacts,
                          SpeciesTotals, Totals, WallTotals)
 from .state import State
@@ -30,5 +31,5 @@ from .values import Table, Values
 __all__ = ["COLLISION", "COLLISION_WITH_STATES", "Counters", "Data", "EnergyBudget", "Error",
            "Events", "FirstContacts", "Frame", "Frames", "HAPPENING", "HAPPENING_WITH_STATES", "InputError",
            "InvalidStateError", "IoError", "KINDS", "NematicOrder", "Recording", "SceneWarning", "Series",
-           "Simulation", "SlidingContacts", "SpeciesTotals", "State", "Table", "Totals", "Values", "VelocitiesSet",
+           "Simulation", "SlidingContacts", "SpeciesTotals", "State", "SweepSummary", "Table", "Totals", "Values", "VelocitiesSet",
            "WallTotals", "nematic_order", "plot", "predict", "read", "theory", "to_gsd", "__version__"]

@@ -23,7 +23,8 @@ from .data import value_of
 from .errors import InputError, IoError
 from .frames import Frame, Frames, find_needles, places
 from .phases import mean_by_phase
-from .values import NotPickled, Table, Values, html_table, pandas_table
+from .sweeps import SweepSummary, read_summary
+from .values import NotPickled, Table, Values, html_table, pandas_table, plain
 
 if TYPE_CHECKING:
     import h5py
@@ -33,9 +34,9 @@ if TYPE_CHECKING:
 TOTALS = ("t_tr", "t_rot", "energy", "momentum", "collisions", "tc_collisions")
 
 
-def read(path: str | os.PathLike[str]) -> Recording:
+def read(path: str | os.PathLike[str]) -> Recording | SweepSummary:
     """Opens a file that a run has written, or is writing, or any other H5MD file of needles, of
-    which there are the frames only.
+    which there are the frames only. Of the summary.h5 of a sweep it gives the SweepSummary.
 
     What is already in the file at that moment can be read. Close it and open it again to see more.
 
@@ -43,7 +44,8 @@ def read(path: str | os.PathLike[str]) -> Recording:
     velocity, orientation and angular_velocity in /particles/needles, or in the only group under
     /particles, in one of the layouts that initial.file can have.
     """
-    return Recording(path)
+    summary = read_summary(path)
+    return Recording(path) if summary is None else summary
 
 
 class Series(Table):
@@ -235,7 +237,7 @@ class Recording(NotPickled):
     def parameters(self) -> Values:
         """Scene and settings of the run: scene, version, seed, isa, threads, k, epsilon, ..."""
         group = self._group("parameters", "the parameters of a run")
-        return Values({name: _plain(data[()]) for name, data in group.items()})
+        return Values({name: plain(data[()]) for name, data in group.items()})
 
     @cached_property
     def gas(self) -> Values:
@@ -362,10 +364,3 @@ def _locks(path: str) -> tuple[bool, bool]:
         except OSError:  # a file system without locks
             return False, False
     return written, True
-
-
-def _plain(value: Any) -> Any:
-    """Text for bytes, and numbers of Python for those of NumPy."""
-    if isinstance(value, bytes):
-        return value.decode()
-    return value.item() if isinstance(value, np.generic) else value

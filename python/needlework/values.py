@@ -128,3 +128,10 @@ def html_table(values: Mapping[str, Any]) -> str:
                    f"<td style='text-align:left'>{html.escape(text(value))}</td></tr>"
                    for name, value in values.items())
     return f"<table>{rows}</table>"
+
+
+def plain(value: Any) -> Any:
+    """Text for bytes, and numbers of Python for those of NumPy."""
+    if isinstance(value, bytes):
+        return value.decode()
+    return value.item() if isinstance(value, np.generic) else value

@@ -110,7 +110,12 @@ void add_sweep_command(CLI::App& app, int& exit_code) {
   command->add_option("--member", arguments->member, "run only part K of M")->option_text("K/M");
   command->add_flag("--summary", arguments->summary,
                     "run nothing; sum up the members that are finished");
-  command->add_flag("--json", arguments->json, "print the result as one JSON object");
+  CLI::Option* json =
+      command->add_flag("--json", arguments->json, "print the result as one JSON object");
+  command
+      ->add_flag("--csv", arguments->csv,
+                 "print the means and errors at the ends of the runs, a line for each point")
+      ->excludes(json);
   command->add_flag("--quiet", arguments->quiet, "no progress, no table");
   add_progress_every(*command, arguments->progress_every);
   add_log(*command, arguments->log);

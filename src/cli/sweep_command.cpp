@@ -281,6 +281,8 @@ void Sweep::print(std::span<const sweep::PointSummary> summary) {
               {"costs", costs_of_members()},
               {"points", json_of(grid_, summary)}};
     fmt::print("{}\n", json_text(json, 2));
+  } else if (arguments_.csv) {
+    if (!summary.empty()) fmt::print("{}", csv_of(grid_, summary));
   } else if (!arguments_.quiet && !summary.empty()) {
     fmt::print("{}", table_of(grid_, summary));
   }

@@ -11,7 +11,7 @@ struct SweepArguments {
   std::optional<std::string> member, out, isa, log;
   std::optional<int> threads;
   std::optional<double> progress_every;  ///< [s]
-  bool summary = false, json = false, quiet = false, force = false;
+  bool summary = false, json = false, csv = false, quiet = false, force = false;
 };
 
 /// Returns the exit code.

@@ -1,10 +1,14 @@
 #include "src/cli/sweep_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <vector>
 
+#include "src/cli/csv.h"
 #include "src/cli/json.h"
 
 namespace needlework::cli {
@@ -74,6 +78,39 @@ Json json_of(const runs::sweep::Grid& grid, std::span<const runs::sweep::PointSu
                       {"series", series}});
   }
   return points;
+}
+
+std::string csv_of(const runs::sweep::Grid& grid,
+                   std::span<const runs::sweep::PointSummary> summary) {
+  std::vector<std::string> fields;
+  std::string out;
+  const auto end_line = [&] {
+    out += fmt::format("{}\n", fmt::join(fields, ","));
+    fields.clear();
+  };
+  const auto number_or_none = [](double x) {
+    return std::isfinite(x) ? fmt::format("{}", x) : std::string();
+  };
+  for (const auto& parameter : grid.parameters) fields.push_back(quoted(parameter.key));
+  fields.push_back("members");
+  for (const runs::sweep::Result& result : summary.front().results) {
+    fields.push_back(result.name);
+    fields.push_back(result.name + "_error");
+  }
+  end_line();
+  for (std::size_t p = 0; p < summary.size(); ++p) {
+    for (std::size_t k = 0; k < grid.parameters.size(); ++k) {
+      const auto* text = grid.value(k, p).as<std::string>();
+      fields.push_back(quoted(text ? *text : runs::sweep::toml_of(grid.value(k, p))));
+    }
+    fields.push_back(fmt::to_string(summary[p].seeds.size()));
+    for (const runs::sweep::Result& result : summary[p].results) {
+      fields.push_back(number_or_none(result.estimate.mean));
+      fields.push_back(number_or_none(result.estimate.standard_error));
+    }
+    end_line();
+  }
+  return out;
 }
 
 std::string table_of(const runs::sweep::Grid& grid,

@@ -56,6 +56,25 @@ seeds = [1, 2, 3, 4, 5, 6]
   }
 };
 
+TEST_F(SweepCommand, PrintsAMeanAndAnErrorOfEachResultInALineOfEachPoint) {
+  const json points = result("grid.toml --out all")["points"];
+  std::istringstream lines(run("sweep grid.toml --out all --csv --quiet").out);
+  std::string head, line;
+  std::getline(lines, head);
+  EXPECT_TRUE(head.starts_with("collisions.epsilon,members,time,time_error,collisions,")) << head;
+  for (const json& point : points) {
+    ASSERT_TRUE(std::getline(lines, line));
+    const json& time = point["results"]["time"];
+    const std::string expected =
+        fmt::format("{},3,{},{},", point["parameters"]["collisions.epsilon"].get<double>(),
+                    time["mean"].get<double>(), time["standard_error"].get<double>());
+    EXPECT_TRUE(line.starts_with(expected)) << line << " instead of " << expected;
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), std::count(head.begin(), head.end(), ','));
+  }
+  EXPECT_FALSE(std::getline(lines, line)) << line;
+  EXPECT_EQ(run("sweep grid.toml --out all --csv --json").exit_code, 2);
+}
+
 TEST_F(SweepCommand, GivesMeansAndStandardErrorsOfItsRuns) {
   const json sweep = result("grid.toml --out all");
   EXPECT_EQ(sweep["members"], 6);

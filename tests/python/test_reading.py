@@ -2,6 +2,7 @@
 
 import errno
 import os
+import pickle
 import subprocess
 import sys
 import tempfile
@@ -17,6 +18,32 @@ from needlework import InputError, IoError, Simulation, read
 from support import GAS, gas, require
 
 require("h5py", "pandas")
+
+
+class Summaries(unittest.TestCase):
+    def test_of_a_sweep_has_a_column_for_each_parameter_and_result(self):
+        with tempfile.TemporaryDirectory() as folder:
+            Path(folder, "scene.toml").write_text(
+                "needles = { count = 20, box = 4 }\nuntil.collisions_per_needle = 5\n")
+            Path(folder, "grid.toml").write_text(
+                'scene = "scene.toml"\nseeds = [1, 2]\n[parameters]\n'
+                '"collisions.epsilon" = [1.0, 0.9]\n"collisions.tc" = 0.1\n')
+            subprocess.run([os.environ["NEEDLEWORK_PROGRAM"], "sweep", "grid.toml", "--quiet",
+                            "--out", "all"], cwd=folder, check=True)
+            summary = read(Path(folder, "all", "summary.h5"))
+        np.testing.assert_equal(summary["collisions.epsilon"], [1, 0.9])
+        np.testing.assert_equal(summary.members, [2, 2])
+        np.testing.assert_equal(summary.collisions, [50, 50])
+        np.testing.assert_equal(summary.collisions_error, [0, 0])
+        self.assertGreater(summary.time_error[0], 0)
+        self.assertLess(summary.energy[1], summary.energy[0])
+        self.assertEqual(list(summary.to_pandas()["members"]), [2, 2])
+        self.assertEqual([list(seeds) for seeds in summary.seeds], [[1, 2], [1, 2]])
+        np.testing.assert_allclose(summary.series[0].energy[0], summary.energy[0])
+        self.assertIn("[parameters]", summary.about.grid)
+        self.assertEqual(repr(summary)[:22], "SweepSummary of 2 rows")
+        again = pickle.loads(pickle.dumps(summary))
+        np.testing.assert_equal(again.series[1].time, summary.series[1].time)
 
 
 class Reading(unittest.TestCase):
