@@ -17,12 +17,14 @@ const char* advice_for(const PairCollapse& c) {
          "each other";
 }
 
-const char* advice_for(const GroupCollapse& c) {
+std::string advice_for(const GroupCollapse& c) {
   const bool alone = c.first == c.second;  // with walls
+  if (alone && (c.sliding || c.contact_time))
+    return fmt::format(
+        "{} cannot help where a wall moves or draws velocities, nor a needle that lies on a wall; "
+        "of a tip in the corner of two such walls, less motion or a higher temperature may",
+        c.sliding ? "collisions.sliding_below" : "a contact time");
   if (c.sliding) return "a longer collisions.sliding_below may help";
-  if (c.contact_time && alone)
-    return "a contact time cannot help where a wall moves or draws velocities, nor a needle that "
-           "lies on a wall";
   if (c.contact_time) return "a longer contact time may help";
   return alone ? "set collisions.tc_relative, to 1e-3 say, unless it rests on a wall"
                : "set collisions.tc_relative, to 1e-3 say, or collisions.sliding";

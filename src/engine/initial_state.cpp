@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "needlework/initial_state.h"
 #include "needlework/simulation.h"
 #include "src/machine/stop_request.h"
+#include "src/physics/vectors.h"
 #include "src/scene/check.h"
 #include "src/scene/confinement.h"
 #include "src/scene/initial_state.h"
@@ -105,10 +107,42 @@ Scene elastic(const Scene& scene, const State& state) {
   return out;
 }
 
+// The state, with velocities of the scene.
+State drawn_from(const Simulation& simulation, const Scene& scene) {
+  State out;
+  simulation.copy(out);
+  out.image.clear();
+  out.id.clear();
+  draw_velocities(scene, out);
+  return out;
+}
+
+// Whether two rods that touch where they have last collided approach each other, in a state in
+// order of id.
+bool approach(const State& state, const Collision& last, const std::array<Gap, 3>& gaps) {
+  const std::size_t a = last.first, b = last.second;
+  const auto arm = [&](std::size_t i, double length) {
+    const Vec3d u = vector_of(state.orientation[i]);
+    return std::pair(u * length, cross(vector_of(state.angular_velocity[i]), u) * length);
+  };
+  const auto [first, turns_first] = arm(a, last.arm_first);
+  const auto [second, turns_second] = arm(b, last.arm_second);
+  std::array<double, 3> apart{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    apart[axis] = state.position[a][axis] - state.position[b][axis];
+    if (gaps[axis].is_walled()) continue;
+    apart[axis] -= state.box[axis] * std::nearbyint(apart[axis] / state.box[axis]);
+  }
+  const Vec3d velocity = vector_of(state.velocity[a]) - vector_of(state.velocity[b]);
+  return dot(vector_of(apart) + first - second, velocity + turns_first - turns_second) < 0;
+}
+
 DrawnState melted(const Scene& scene, State state, RodOrder order, double collisions_per_rod) {
   const Scene still = elastic(scene, state);
   draw_velocities(still, state);
   Simulation simulation(still, state);
+  std::optional<Collision> last;
+  simulation.on_collision([&](const Collision& collision) { last = collision; });
   // In parts, after which whoever asks for it may stop the drawing.
   Scene::Until until;
   until.collisions_per_needle = collisions_per_rod;
@@ -120,10 +154,14 @@ DrawnState melted(const Scene& scene, State state, RodOrder order, double collis
          2 * static_cast<double>(simulation.collisions()) / (collisions_per_rod * rods)});
   }
   DrawnState out;
-  simulation.copy(out.state);
-  out.state.image.clear();
-  out.state.id.clear();
-  draw_velocities(scene, out.state);
+  out.state = drawn_from(simulation, scene);
+  // By its new velocities, the pair of the last collision would begin the run with another one.
+  if (last && approach(out.state, *last, gaps_of(scene))) {
+    until.collisions_per_needle.reset();
+    until.time = simulation.time() + 0.5 * simulation.mean_free_time();
+    while (simulation.advance(until) == Stop::wall_time) StopRequest::check();
+    out.state = drawn_from(simulation, scene);
+  }
   out.placement = fmt::format(
       "{} rods placed {}, then moved in {} elastic collisions per rod", out.state.size(),
       order == RodOrder::parallel ? "on a lattice" : "in crossed blocks", collisions_per_rod);

@@ -60,6 +60,15 @@ bool has_contact_time(const Scene& scene) {
   return scene.collisions.tc || scene.collisions.tc_relative || slides_beside_walls(scene);
 }
 
+// Of the box, at the mean speed and by falling; infinite where nothing moves.
+double crossing_time(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
+  double square = 0;  // of the speed
+  for (const SumsOfSquares& sum : sums) square += sum.v2 / static_cast<double>(gas.size());
+  const double edge = std::max({gas.box[0], gas.box[1], gas.box[2]});
+  square += edge * std::sqrt(dot(gas.gravity, gas.gravity));
+  return square > 0 ? edge / std::sqrt(square) : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 Effects effects_of(const Scene& scene) {
@@ -126,7 +135,9 @@ Run::Run(const Scene& scene, Gas initial) : Run(scene) {
   if (const auto reason = out_of_range(numbers()); !reason.empty())
     throw InputError("state: " + reason);
   open_window();
-  gas.clock = Clock(windows.span());
+  // A body that meets no other one tells time by how long it takes through the box.
+  const double span = windows.span();
+  gas.clock = Clock(std::isfinite(span) ? span : crossing_time(gas, sums_of_squares(gas, now, 1)));
   for (const auto& source : sources) source->begin(gas);
   find_next_kick();
   for (Needle i{0}; i < gas.size(); ++i) {
@@ -163,11 +174,7 @@ double Run::usual_time_of_events(const std::vector<SumsOfSquares>& sums) const {
   double out = kicks ? kicks->every() : std::numeric_limits<double>::infinity();
   if (sources.empty() || gas.size() == 0) return out;
   for (const auto& source : sources) out = std::min(out, source->usual_time());
-  double square = 0;  // of the speed
-  for (const SumsOfSquares& sum : sums) square += sum.v2 / static_cast<double>(gas.size());
-  const double edge = std::max({gas.box[0], gas.box[1], gas.box[2]});
-  square += edge * std::sqrt(dot(gas.gravity, gas.gravity));
-  return square > 0 ? std::min(out, edge / std::sqrt(square)) : out;
+  return std::min(out, crossing_time(gas, sums));
 }
 
 void Run::pass_window() {

@@ -48,6 +48,17 @@ namespace {
   pair.fall = first_is_earlier ? kernels::Fall{gain, fall} : kernels::Fall{-gain, -fall};
 }
 
+// By how much coordinates along axes with walls exceed the edges. [L]
+double outside_box(const Gas& gas, const Vec3d& place) {
+  const double coordinates[] = {place.x, place.y, place.z};
+  double out = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto each = static_cast<std::size_t>(axis);
+    if (gas.walled[each]) out += std::max(0.0, std::abs(coordinates[axis]) - gas.box[each]);
+  }
+  return out;
+}
+
 }  // namespace
 
 kernels::Pair make_pair(const Gas& gas, Needle a, const Record& record_a, Needle b,
@@ -63,8 +74,14 @@ kernels::Pair make_pair(const Gas& gas, Needle a, const Record& record_a, Needle
     pair.shift = {two_prod(shift[0], gas.box[0]), two_prod(shift[1], gas.box[1]),
                   two_prod(shift[2], gas.box[2])};
   }
-  if (gas.falls) add_fall(pair, gas.gravity);
   pair.touch_within = gas.touch_tolerance();
+  if (gas.falls) {
+    add_fall(pair, gas.gravity);
+    // Beyond an open side, to which needles come that fall back, coordinates round more than in the
+    // box.
+    pair.touch_within += 0x1p-44 * std::max(outside_box(gas, record_a.flight.r),
+                                            outside_box(gas, record_b.flight.r));
+  }
   // The touch is in the later record. If both records were made at the same time, it may be in
   // either.
   const bool found =

@@ -90,7 +90,7 @@ MixtureLaw::MixtureLaw(const Composition& composition, double volume, std::vecto
 }
 
 MixtureLaw::Pair MixtureLaw::tabulated(std::size_t first, std::size_t second) const {
-  Pair out{.first = first, .second = second, .contacts = {}};
+  Pair out{.first = first, .second = second, .contacts = {}, .traces = {}};
   tabulate(out);
   return out;
 }
@@ -119,13 +119,10 @@ void MixtureLaw::tabulate(Pair& pair, std::span<const Node> first, std::span<con
   const double masses = 1 / a.mass + 1 / b.mass;
   for (const auto& [share_a, weight_a] : first) {
     for (const auto& [share_b, weight_b] : second) {
-      Contact contact{.weight = unit * weight_a * weight_b,
-                      .first = share_a,
-                      .second = share_b,
-                      .normal = 0,
-                      .once = {},
-                      .twice = {}};
+      Contact contact{
+          .weight = unit * weight_a * weight_b, .first = share_a, .second = share_b, .normal = 0};
       contact.normal = masses + contact.first + contact.second;
+      Traces traces;
       for (int n = 1; rough && n <= angles; ++n) {
         const double angle = std::numbers::pi * n / (angles + 1);
         const double sine = std::sin(angle), cosine = std::cos(angle);
@@ -135,17 +132,23 @@ void MixtureLaw::tabulate(Pair& pair, std::span<const Node> first, std::span<con
         const Matrix inverse =
             combination(masses, contact.first, x[1], contact.second, x[2]).inverse();
         for (int i = 0; i < 3; ++i) {
-          contact.once[i] += weight * trace_of_product(inverse, x[i]);
+          traces.once[i] += weight * trace_of_product(inverse, x[i]);
           for (int j = 0; j < 3; ++j) {
-            contact.twice[i][j] += weight * trace_of_product(between(inverse, x[j]), x[i]);
+            traces.twice[i][j] += weight * trace_of_product(between(inverse, x[j]), x[i]);
           }
         }
       }
       pair.contacts.push_back(contact);
+      if (rough) pair.traces.push_back(traces);
     }
   }
 }
 
+void MixtureLaw::add(const Pair& pair, std::span<const Temperatures> now, MixtureRates& out) const {
+  pair.traces.empty() ? add<false>(pair, now, out) : add<true>(pair, now, out);
+}
+
+template <bool rough>
 void MixtureLaw::add(const Pair& pair, std::span<const Temperatures> now, MixtureRates& out) const {
   const Species &a = composition_[pair.first], &b = composition_[pair.second];
   const Temperatures &t = now[pair.first], &u = now[pair.second];
@@ -154,7 +157,8 @@ void MixtureLaw::add(const Pair& pair, std::span<const Temperatures> now, Mixtur
   const double flight = t.t_tr / a.mass + u.t_tr / b.mass;
   // Gains of energy over all contacts: translation and rotation of one needle of each species.
   double rate = 0, gain[4] = {};
-  for (const Contact& c : pair.contacts) {
+  for (std::size_t n = 0; n < pair.contacts.size(); ++n) {
+    const Contact& c = pair.contacts[n];
     const double turn_a = t.t_rot * c.first, turn_b = u.t_rot * c.second;
     const double sigma2 = flight + (turn_a + turn_b);
     const double weight = c.weight * std::sqrt(sigma2);
@@ -164,9 +168,11 @@ void MixtureLaw::add(const Pair& pair, std::span<const Temperatures> now, Mixtur
     };
     // `matrix`: 1 for translation, P or P' for rotation.
     const auto tangential = [&](int matrix, double x, double y) {
-      const double* twice = c.twice[matrix];
+      if constexpr (!rough) return 0.0;
+      const Traces& traces = pair.traces[n];
+      const double* twice = traces.twice[matrix];
       return (1 + beta) *
-             (-x * c.once[matrix] +
+             (-x * traces.once[matrix] +
               0.5 * (1 + beta) * y * (flight * twice[0] + turn_a * twice[1] + turn_b * twice[2]));
     };
     gain[0] +=

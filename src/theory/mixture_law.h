@@ -30,13 +30,16 @@ class MixtureLaw {
     double weight;         // of the collision rate, without sigma, per pair of needles
     double first, second;  // s^2 / I, s'^2 / I' [1 / m]
     double normal;         // M along the normal [1 / m]
-    // Means of traces in the plane of the directors, with P and P' the projections off each
-    // director: of M^-1 X and of M^-1 Y M^-1 X, for X in {1, P, P'} and Y in {1, P, P'}.
-    double once[3], twice[3][3];
+  };
+  // Means of traces in the plane of the directors, with P and P' the projections off each director:
+  // of M^-1 X and of M^-1 Y M^-1 X, for X in {1, P, P'} and Y in {1, P, P'}.
+  struct Traces {
+    double once[3] = {}, twice[3][3] = {};
   };
   struct Pair {
     std::size_t first, second;
     std::vector<Contact> contacts;
+    std::vector<Traces> traces;  // of each contact; empty if the two are smooth
   };
 
   struct WithoutPairs {};
@@ -46,6 +49,8 @@ class MixtureLaw {
   void tabulate(Pair& pair) const;
   void tabulate(Pair& pair, std::span<const Node> first, std::span<const Node> second,
                 double unit) const;
+  void add(const Pair& pair, std::span<const Temperatures> now, MixtureRates& out) const;
+  template <bool rough>
   void add(const Pair& pair, std::span<const Temperatures> now, MixtureRates& out) const;
 
   Composition composition_;

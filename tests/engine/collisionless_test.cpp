@@ -92,6 +92,23 @@ TEST(Collisionless, TimePassesWithoutEvents) {
   }
 }
 
+// A sphere meets no image of its own, so that theory knows no time of it.
+TEST(Collisionless, OneSphereFliesForAsLongAsOneNeedle) {
+  for (const double diameter : {0.0, 1.0}) {
+    Scene scene;
+    scene.needles.box = {3, 3, 3};
+    scene.species = {{.name = "one",
+                      .count = 1,
+                      .length = diameter > 0 ? 0.0 : 1.0,
+                      .t_tr = 1e-60,
+                      .t_rot = diameter > 0 ? 0 : 1e-60,
+                      .diameter = diameter}};
+    Simulation simulation(scene);
+    EXPECT_EQ(simulation.advance(until_time(1e32)), Stop::time) << diameter;
+    EXPECT_EQ(simulation.time(), 1e32);
+  }
+}
+
 TEST(Collisionless, TimePassesWithoutNeedlesBetweenWalls) {
   Scene scene = test::scene_of(0, 4);
   scene.walls = {{.axis = "z", .side = "both"}};

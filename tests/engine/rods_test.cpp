@@ -423,6 +423,22 @@ TEST(RodPacking, SaysHowRodsWerePlaced) {
   EXPECT_EQ(Simulation(test::scene_of(10, 5)).placement(), "");
 }
 
+// The elastic collisions end with one, whose rods may approach by the velocities that are drawn
+// then.
+TEST(RodPacking, LetsNoRodsTouchThatApproach) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    Scene scene = rods_of(20, 0, 0.25);
+    scene.initial.packing = "lattice";
+    scene.needles.seed = seed;
+    Simulation simulation(scene);
+    double first = 0;
+    simulation.on_collision([&](const Collision& collision) { first = collision.time; });
+    simulation.advance(test::until_collisions(0.1));
+    EXPECT_EQ(simulation.collisions(), 1u);
+    EXPECT_GT(first, 1e-12) << seed;
+  }
+}
+
 TEST(RodPacking, CanBeStopped) {
   Scene scene = rods_of(4000, 1, 0.45);
   scene.initial.packing = "lattice";

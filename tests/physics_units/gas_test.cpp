@@ -171,6 +171,21 @@ TEST(MakePair, StartsAtTheLaterRecord) {
   EXPECT_EQ(Gas::start_of(gas.records[0], gas.records[1]), (Time{7, 0.5}));
 }
 
+// Above a floor, to which needles come back from beyond the box.
+TEST(MakePair, TouchesWithinWhatFarPlacesRound) {
+  Gas gas = gas_of(2, {3, 4, 5});
+  gas.walled = {false, false, true};
+  gas.gravity = {0, 0, -1};
+  gas.falls = true;
+  const auto within = [&](double height) {
+    gas.records[0].flight.r.z = height;
+    return make_pair(gas, needle, gas.records[0], partner, gas.records[1], {}).touch_within;
+  };
+  EXPECT_EQ(within(4.9), gas.touch_tolerance());
+  EXPECT_EQ(within(5 + 1024), gas.touch_tolerance() + 0x1p-34);
+  EXPECT_EQ(within(-1024 - 5), gas.touch_tolerance() + 0x1p-34);
+}
+
 TEST(MakePair, ShiftsByWholeBoxesExactly) {
   Gas gas = gas_of(2, {10.1, 0.3, 7.7});
   const Shift shift{-3, 1000000007, 5};
