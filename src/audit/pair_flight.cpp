@@ -53,7 +53,8 @@ Sample evaluate(const Flight<Ball<Real>>& first, const Flight<Ball<Real>>& secon
 
 PairFlight::PairFlight(const Needle& first, const Needle& second, const Shift& shift,
                        const Space& space, const Start& start)
-    : PairMotion(first.body, second.body, space, start),
+    : PairMotion(first.body, second.body, space.around(first.record.r).around(second.record.r),
+                 start),
       first_(first),
       second_(second),
       flights_{first.flight, second.flight},

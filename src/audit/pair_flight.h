@@ -2,7 +2,9 @@
 // error bounds, and how uncertain it is because of the rounded input.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -62,6 +64,7 @@ struct Space {
   double longest = 1;  ///< length of the longest needle
   std::array<bool, 3> periodic{true, true, true};
   Vector<double> gravity{};  ///< acceleration of all needles [L / time^2]
+  double outside = 0;        ///< by so much coordinates may be beyond the box [L]
 
   /// The number of boxes nearest to a distance along an axis; 0 where there are no images.
   template <class Real>
@@ -71,11 +74,22 @@ struct Space {
     return floor(distance / Real(box[static_cast<std::size_t>(axis)]) + Real(0.5));
   }
   /// Largest change of a contact function by rounding a new record. [L]
-  double rounding() const { return 0x1p-51 * (1 + box[0] + box[1] + box[2]); }
+  double rounding() const { return 0x1p-51 * (1 + box[0] + box[1] + box[2] + outside); }
   /// If |f| is below this and contact points are on the needles or within `beside` of them, f is
   /// continued from one flight to the next. This is the engine's rule, so that sequences of
   /// bounces are followed to their end. [L]
-  double continued() const { return 0x1p-44 * (longest + box[0] + box[1] + box[2]); }
+  double continued() const { return 0x1p-44 * (longest + box[0] + box[1] + box[2] + outside); }
+  /// The same for what happens at this place, which may be far from the box where a side is open.
+  Space around(const Vector<double>& place) const {
+    Space out = *this;
+    double beyond = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto each = static_cast<std::size_t>(axis);
+      if (!periodic[each]) beyond += std::max(0.0, std::abs(place[axis]) - box[each]);
+    }
+    out.outside = std::max(outside, beyond);
+    return out;
+  }
 };
 
 /// After this many of a needle's lengths, or radians, of flight the engine may have renewed and

@@ -136,7 +136,7 @@ RodFlight::RodFlight(const Needle& first, const Needle& second, const Shift& shi
     : first_(first),
       second_(second),
       shift_{{double(shift[0]), double(shift[1]), double(shift[2])}},
-      space_(space),
+      space_(space.around(first.record.r).around(second.record.r)),
       slack_(slack),
       contact_(0.5 * (first.body.diameter + second.body.diameter)),
       size_(0.5 * (first.body.length + second.body.length) + contact_),

@@ -111,7 +111,9 @@ Contact contact_of_rods(const Partner& a, const Partner& b, const Vector3& r,
 }  // namespace
 
 double excess_over_rule(const Needle& first, const Needle& second, const Instant& now,
-                        const Collision& collision, const Rule& rule, const Space& space) {
+                        const Collision& collision, const Rule& rule, const Space& of_gas) {
+  const Space space = of_gas.around(vector(collision.after[0].position))
+                          .around(vector(collision.after[1].position));
   const std::array<Partner, 2> needles = {Partner(first, now, space.gravity),
                                           Partner(second, now, space.gravity)};
   const auto& [a, b] = needles;

@@ -38,7 +38,7 @@ inline void add_place(Excess& excess, const There& there, const Vector<double>& 
   for (int axis = 0; axis < 3; ++axis) {
     Quad moved = there.r[axis] - Quad(position[axis]);
     moved -= Quad(space.box[static_cast<std::size_t>(axis)]) * space.boxes_along<Quad>(axis, moved);
-    excess.add(moved, space.rounding() + 16 * unit * there.flown);
+    excess.add(moved, space.around(position).rounding() + 16 * unit * there.flown);
     excess.add(there.u[axis] - Quad(orientation[axis]), 8 * unit * (2 + there.turned));
   }
 }

@@ -46,6 +46,29 @@ TEST(AuditOfWalls, FindsNothingWrongWithGravityAndMotion) {
   for (const Scene& scene : {falling, vibrated, rising}) expect_clean_gas(scene);
 }
 
+// Spheres that fly hundreds of edges away through an open side, where their places round more.
+TEST(AuditOfWalls, FindsNothingWrongFarBeyondAnOpenSide) {
+  Scene scene = scene_of(0, 1.1913356440626408);
+  scene.needles.seed = 120351;
+  scene.collisions.tc_relative = 1e-3;
+  scene.forces.gravity = {-5.8387874128203645, -0.08820100583697889, 0.09529989198858446};
+  constexpr double length = 0.41997844600874484, diameter = 0.23791376005033193;
+  scene.species = {{.name = "rods",
+                    .count = 3,
+                    .length = length,
+                    .k = homogeneous_k(length, diameter),
+                    .t_rot = 0,
+                    .diameter = diameter}};
+  scene.walls = {wall("y", "low", 0.99), wall("x", "low"), wall("z", "low"),
+                 wall("z", "high", 0.5)};
+  scene.walls[1].motion = Scene::WallMotion{
+      .amplitude = 0.006578922060590769, .frequency = 1.7212141938726504, .phase = 0};
+  scene.walls[2].temperature = 1;
+  const Findings findings = audited(scene, 195.0 / audit_share);
+  expect_clean(findings, name_of(scene));
+  EXPECT_GT(findings.hits, 8000u / audit_share);
+}
+
 TEST(AuditOfWalls, FindsNothingWrongWithThermalWallsAndMixtures) {
   Scene scene = scene_of(0, 4);
   scene.species = {{.name = "short", .count = 50, .length = 0.6, .mass = 0.5, .k = 4},
