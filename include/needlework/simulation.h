@@ -93,6 +93,11 @@ class Simulation {
   /// on.
   void on_collision_times(std::function<void(std::span<const double>)> callback);
 
+  /// Sets a function that is called after each kick of all needles, before anything else happens at
+  /// its instant: time() and copy() are those with which the run goes on. If it throws, the
+  /// simulation cannot go on.
+  void on_kick(std::function<void()> callback);
+
   /// Stops `advance` soon, with one thread before the next event: the call in progress, or else the
   /// next one, which then returns before any further event. May be called from a signal handler or
   /// another thread.

@@ -270,26 +270,28 @@ void Audit::go_on_if_resumed() {
 }
 
 double Audit::next_kick() const {
-  if (!kicks_) return std::numeric_limits<double>::infinity();
   return static_cast<double>(findings_.kicks + 1) * setup_.driving.kicks->every;
 }
 
 void Audit::add_kick(const State& after) {
+  if (!kicks_) throw InputError("kick: expected none in this scene");
   if (after.id != ids_) throw InputError("state after a kick: expected the needles of the run");
   const Instant now = instant_of(next_kick(), setup_.epoch_length);
   ++findings_.kicks;
   note_in_fingerprint(static_cast<std::uint64_t>(now.epoch));
   note_in_fingerprint(std::bit_cast<std::uint64_t>(now.offset));
+  settle_cuts(now, true);
+  check_owed(now, nullptr);
   advance_windows(now);
   std::vector<Needle> kicked = needles_of(after, now, bodies_, setup_.epoch_length, unit_);
   const double before = energy();
   if (!resumed_) check_kick(now, kicked);
   needles_ = std::move(kicked);
+  part_all(now);
   last_energy_change_ = energy() - before;
   windows_.begin_again(now, needles_);
-  // Nothing comes after it at its instant.
-  constexpr std::int64_t last = std::numeric_limits<std::int64_t>::max();
-  last_ = {now, {last, last, last, last, last, last}};
+  // What it brings about at its instant begins a new order.
+  last_ = {now, {-1, 0, 0, 0, 0, 0}};
   go_on_if_resumed();
 }
 
@@ -316,8 +318,9 @@ void Audit::check_kick(const Instant& now, const std::vector<Needle>& after) {
       report(Kind::wrong_order, i, i, now);
       continue;
     }
-    if (excess_over_kick(needles_[i], space_.gravity, after[i].record, changes[i], of_all, largest,
-                         space_) > 1) {
+    check_held(i, now);
+    if (excess_over_kick(present(i, now), space_.gravity, after[i].record, changes[i], of_all,
+                         largest, space_) > 1) {
       report(Kind::wrong_rule, i, i, now);
     }
     check_walls(i, now, nullptr);
@@ -366,20 +369,22 @@ void Audit::check_single(const Instant& now, const Happening& happening) {
 
 // Rule and place of a hit: its tip is at the wall, and comes nearer.
 void Audit::check_hit(Index i, const Instant& now, const Collision& hit) {
-  const Needle& needle = needles_[i];
+  const Needle needle = present(i, now);
   const Wall& wall = walls_[hit.second];
   const bool by_contact_time = hit.contact_time_rule;
   const double time = since_start(now) * setup_.epoch_length;
   if (excess_over_wall_rule(needle, space_.gravity, wall, now, hit, space_) > 1 ||
-      by_contact_time != (!wall.draws && contact_time_is_due(i, i, now, by_contact_time)) ||
+      by_contact_time != (!wall.draws && hit_is_elastic(i, now, by_contact_time)) ||
       std::abs(hit.time - time) > 0x1p-50 * time) {
     report_at_wall(Kind::wrong_rule, i, hit.second, now, 0);
   }
+  // Of a needle in contact, from the present on.
   const double duration = elapsed<double>(needle.record.time, now).middle;
+  const double flown = elapsed<double>(needles_[i].record.time, now).middle;
   const TipFlight tip(needle, space_.gravity, wall, hit.arm_first > 0 ? 1 : -1);
   const double height = tip.height(duration), rate = tip.rate(duration);
   const double off =
-      tip_tolerance() + std::abs(rate) * (relative_tolerance * duration + 2 * resolution);
+      tip_tolerance(needle) + std::abs(rate) * (relative_tolerance * flown + 2 * resolution);
   if (height <= off) return;  // one that is too low is found as one that crossed the wall
   const bool soon = rate < 0 && height < -rate * early_reach;
   report_at_wall(soon ? Kind::early : Kind::spurious, i, hit.second, now, 0);
@@ -393,11 +398,17 @@ void Audit::check_walls(Index i, const Instant& now, const Collision* hit) {
   const double duration = elapsed<double>(needle.record.time, now).middle;
   if (!(duration > 0)) return;
   ++findings_.at_walls;
+  const Guide guide = guide_of(i, 0);
+  if (guide.joint && !guide.joint->follow(duration)) {
+    ++findings_.undecided;
+    return;
+  }
+  const double tolerance = tip_tolerance(present(i, now));
   for (std::size_t wall = 0; wall < walls_.size(); ++wall) {
     for (const int tip : {1, -1}) {
       if (tip > 0 && needle.body.length == 0) continue;  // a sphere has both in one place
-      const TipFlight flight(needle, space_.gravity, walls_[wall], tip);
-      const auto crossing = flight.crossing(0, duration, tip_tolerance());
+      const TipFlight flight(guide, duration, space_.gravity, walls_[wall], tip);
+      const auto crossing = flight.crossing(0, duration, tolerance);
       if (!crossing) continue;
       const bool is_of_hit = hit && hit->second == wall && (hit->arm_first > 0) == (tip > 0);
       report_at_wall(is_of_hit ? Kind::late : Kind::missed, i, wall, needle.record.time, *crossing);
@@ -421,6 +432,7 @@ void Audit::follow(const Instant& now, const Happening& happening,
     if (happening.kind == Happening::thermostat) continue;  // which does not count for t_c
     has_collided_[index] = true;
     met_[index] = now;
+    if (happening.kind == Happening::wall) meetings_[index].note(Meeting::wall, now);
   }
   if (judgement) {
     note_meeting(index_of(event.first), index_of(event.second), now, judgement->crowded);
@@ -500,6 +512,14 @@ void Audit::check_rule(Index a, Index b, const Instant& now, const Collision& co
 // Those of gases with walls, gravity or a thermostat are not.
 bool Audit::follows_windows() const {
   return walls_.empty() && norm(space_.gravity) == 0 && !setup_.driving.andersen;
+}
+
+// Beside walls the threshold of needles that slide, which is the contact time of hits, is what the
+// reports say; an age of 0 is below it, and needles that have not collided have none.
+bool Audit::hit_is_elastic(Index i, const Instant& now, bool reported) const {
+  if (!setup_.sliding) return contact_time_is_due(i, i, now, reported);
+  if (setup_.sliding->elastic_strikes && joints_[i]) return true;
+  return has_collided_[i] && (met_[i] == now || reported);
 }
 
 bool Audit::contact_time_is_due(Index a, Index b, const Instant& now, bool reported) const {

@@ -19,6 +19,7 @@
 #include "needlework/simulation.h"
 #include "src/audit/contact_finder.h"
 #include "src/audit/encounters.h"
+#include "src/audit/guided_flight.h"
 #include "src/audit/joint_motion.h"
 #include "src/audit/kicks.h"
 #include "src/audit/pair_flight.h"
@@ -114,7 +115,7 @@ struct Setup {
   Composition composition;            ///< with the counts of the state
   std::optional<double> tc;           ///< absolute contact time
   std::optional<double> tc_relative;  ///< the same in present mean free times
-  std::optional<Sliding> sliding;     ///< not together with walls and kicks
+  std::optional<Sliding> sliding;
   std::vector<Scene::Wall> walls = {};
   std::array<double, 3> gravity{};  ///< [L / time^2]
   Scene::Driving driving = {};
@@ -144,11 +145,9 @@ class Audit {
   /// The same for all that happens. Of a thermostat it is checked that the needle goes on from
   /// where it was, not which velocities it gets. Throws InputError for events of other kinds.
   void add(const Happening& happening);
-  /// When all needles are kicked next; infinite where there are no kicks. Everything that the run
-  /// reports up to then is to be added before the kick. [time]
-  double next_kick() const;
-  /// Adds this kick: `after` is the state at its instant, in order of id, with which the engine
-  /// goes on. Checks the flights of all needles and pairs until then.
+  /// Adds a kick of all needles: `after` is the state at its instant, in order of id, with which
+  /// the engine goes on, before anything else happens. Checks the flights of all needles and pairs
+  /// until then.
   void add_kick(const State& after);
   /// Ends the run and checks the last flights. If `stop` returns true between two flights, returns
   /// false and restores the previous state.
@@ -179,9 +178,16 @@ class Audit {
   };
   // When a needle has touched others.
   struct Meeting {
+    static constexpr Index wall = ~Index{0};   // in place of a partner
     std::optional<Index> last;                 // the latest partner
     std::optional<Instant> with_last, others;  // the latest times with it, and with any other
     int in_crowd = 0;                          // collisions soon after one with a third, in a row
+
+    void note(Index partner, const Instant& now) {
+      if (last != partner) others = with_last;
+      last = partner;
+      with_last = now;
+    }
   };
   enum class Answer { no, yes, open };
   // What a collision of needles that may slide should have been.
@@ -199,6 +205,7 @@ class Audit {
     Start start;
   };
 
+  double next_kick() const;  ///< [time]
   Index index_of(std::uint32_t id) const;
   /// The same for both orders.
   static std::uint64_t key_of(Index i, Index j) {
@@ -225,6 +232,8 @@ class Audit {
                   const std::optional<Judgement>& judgement);
   const Joint* joint_of(Index i, Index j) const;
   Approach chord_of(Index i, Index j, const Instant& begin, double duration) const;
+  /// How it moves from so long after its record on.
+  Guide guide_of(Index i, double delay) const;
   Needle present(Index i, const Instant& now) const;
   std::vector<Needle> present(const Instant& now) const;
   Vector<double> nearest_separation(const Needle& a, const Needle& b) const;
@@ -241,12 +250,14 @@ class Audit {
   void check_held(Index i, const Instant& now);
   void check_contact_end(const Instant& now, const Collision& event);
   void check_end_time(const Joint& joint, const Instant& now);
+  void part_all(const Instant& now);
   void follow_contact_end(const Instant& now, const Collision& event);
   void cut_contact(Index i, const Instant& now);
   void enter_contact(const Instant& now, const Collision& event);
   double excess_over_contact(const Joint& joint, const Instant& now, const Collision& event) const;
   int side_after_end(Joint& joint, const Instant& now) const;
   bool follows_windows() const;
+  bool hit_is_elastic(Index i, const Instant& now, bool reported) const;
   bool contact_time_is_due(Index a, Index b, const Instant& now, bool reported) const;
   void check_flight(Index i, Index j, const Instant& now);
   void check_contact(Index a, Index b, const Instant& now);
@@ -269,7 +280,9 @@ class Audit {
   void settle(const RodFlight& pair);
   double tolerance(PairMotion& pair, double s) const;
   /// How far rounding may move a tip into a wall. [L]
-  double tip_tolerance() const { return space_.continued(); }
+  double tip_tolerance(const Needle& needle) const {
+    return space_.continued() + 0x1p-50 * needle.worn * needle.body.length;
+  }
   void report(Kind kind, Index i, Index j, const Instant& begin, double s = 0);
   void report(Kind kind);
   bool is_proper(const Needle& needle) const;
@@ -290,7 +303,7 @@ class Audit {
   std::vector<Wall> walls_;
   std::optional<Kicks> kicks_;
   std::vector<bool> has_collided_;  ///< or hit a wall
-  std::vector<Instant> met_;        ///< when a needle last did
+  std::vector<Instant> met_;        ///< when a needle last did, ends of contacts apart
   Windows windows_;
   double initial_energy_;          ///< of all needles, in the units of the audit
   double last_energy_change_ = 0;  ///< in the last collision

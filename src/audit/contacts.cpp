@@ -37,12 +37,21 @@ Extended normal_noise(const Needle& first, const Needle& second, const Touch& to
   return 8 * std::max({contact_noise, first.worn * 0x1p-50, second.worn * 0x1p-50}) * touch.speeds;
 }
 
+// What gravity makes of it in this time.
+Stance fallen(Stance stance, const Vector<double>& gravity, Extended time) {
+  const Vector<Extended> gained = to<Extended>(gravity) * time;
+  stance.r = stance.r + gained * (time / 2);
+  stance.v = stance.v + gained;
+  return stance;
+}
+
 // A needle in free flight, as if it had an event now.
-Needle flown_to(const Needle& needle, const Instant& now) {
+Needle flown_to(const Needle& needle, const Vector<double>& gravity, const Instant& now) {
   const Flight<Extended> flight(needle.record);
   const Extended age = static_cast<Extended>(elapsed<double>(needle.record.time, now).middle);
   const Pose<Extended> pose = flight.at(age);
-  return Needle(record_of({pose.r, flight.v, pose.u, pose.du}, now), needle.body);
+  return Needle(record_of(fallen({pose.r, flight.v, pose.u, pose.du}, gravity, age), now),
+                needle.body);
 }
 
 }  // namespace
@@ -51,13 +60,19 @@ const Audit::Joint* Audit::joint_of(Index i, Index j) const {
   return joints_[i] && joints_[i] == joints_[j] ? joints_[i].get() : nullptr;
 }
 
+Guide Audit::guide_of(Index i, double delay) const {
+  Joint* joint = joints_[i].get();
+  return {needles_[i], joint ? &joint->motion : nullptr, joint ? joint->index(i) : 0, delay};
+}
+
 // As if it had an event now.
 Needle Audit::present(Index i, const Instant& now) const {
   if (!joints_[i]) return needles_[i];
   Joint& joint = *joints_[i];
   const double s = elapsed<double>(joint.begin, now).middle;
   joint.motion.follow(s);
-  Needle out(record_of(joint.motion.at(joint.index(i), s), now), needles_[i].body);
+  const Stance stance = fallen(joint.motion.at(joint.index(i), s), space_.gravity, s);
+  Needle out(record_of(stance, now), needles_[i].body);
   out.worn = noise_of(joint.motion, joint.index(i), s) * 0x1p50;
   return out;
 }
@@ -85,13 +100,15 @@ Approach Audit::chord_of(Index i, Index j, const Instant& begin, double duration
   const auto centre = [&](Index n, double s) {
     const Needle& needle = needles_[n];
     const double delay = elapsed<double>(needle.record.time, begin).middle;
-    if (!joints_[n]) return needle.record.r + needle.record.v * (delay + s);
+    // What gravity does to both alike is left out.
+    const Vector<double> fall = space_.gravity * (delay * (0.5 * delay + s));
+    if (!joints_[n]) return needle.record.r + needle.record.v * (delay + s) + fall;
     Joint& joint = *joints_[n];
     joint.motion.follow(delay + duration);
     if (s > 0) {
       acceleration += joint.motion.most(joint.index(n), delay, delay + duration).acceleration;
     }
-    return to<double>(joint.motion.at(joint.index(n), delay + s).r);
+    return to<double>(joint.motion.at(joint.index(n), delay + s).r) + fall;
   };
   const Vector<double> r = centre(i, 0) - centre(j, 0);
   const Vector<double> moved = centre(i, duration) - centre(j, duration) - r;
@@ -168,7 +185,7 @@ Audit::Judgement Audit::judge(Index a, Index b, const Instant& now,
   const double given =
       setup_.composition.restitution(first.body.species, second.body.species).epsilon;
   const auto at = [&](const Needle& needle) {
-    return needle.record.time == now ? needle : flown_to(needle, now);
+    return needle.record.time == now ? needle : flown_to(needle, space_.gravity, now);
   };
   const Needle here = at(first), there = at(second);
   const RelativeState before =
@@ -227,9 +244,7 @@ void Audit::note_meeting(Index a, Index b, const Instant& now, bool crowded) {
   for (const auto& [mine, other] : {std::pair(a, b), std::pair(b, a)}) {
     Meeting& meeting = meetings_[mine];
     meeting.in_crowd = crowded ? meeting.in_crowd + 1 : 0;
-    if (meeting.last != other) meeting.others = meeting.with_last;
-    meeting.last = other;
-    meeting.with_last = now;
+    meeting.note(other, now);
   }
 }
 
@@ -239,7 +254,7 @@ void Audit::enter_contact(const Instant& now, const Collision& event) {
   const Index a = index_of(event.first), b = index_of(event.second);
   const int side = event.normal_velocity < 0 ? 1 : -1;
   JointMotion motion(needles_[a], needles_[b], nearest_separation(needles_[a], needles_[b]), side,
-                     space_.rounding());
+                     space_.around(needles_[a].record.r).rounding());
   joints_[a] = joints_[b] = std::make_shared<Joint>(Joint{a, b, now, std::move(motion)});
   take_continuation(a, b);  // f stays 0 until the contact ends
 }
@@ -248,6 +263,21 @@ void Audit::cut_contact(Index i, const Instant& now) {
   if (!joints_[i]) return;
   cuts_.push_back({joints_[i], now});
   joints_[i] = nullptr;
+}
+
+// As all needles are kicked, contacts end without a report, on their sides.
+void Audit::part_all(const Instant& now) {
+  for (Index i = 0; i < joints_.size(); ++i) {
+    if (!joints_[i]) continue;
+    const Joint& joint = *joints_[i];
+    if (setup_.sliding->elastic_strikes) meetings_[i].note(joint.other(i), now);
+    if (joint.first == i && is_chosen(joint.first, joint.second)) {
+      continuations_[key_of(joint.first, joint.second)] = {
+          nearest_separation(needles_[joint.first], needles_[joint.second]),
+          {Start::touching, joint.motion.side(), 0.0}};
+    }
+  }
+  joints_.assign(joints_.size(), nullptr);
 }
 
 // A contact that has been cut before, of which no end is reported, goes on.
@@ -275,7 +305,10 @@ void Audit::go_on_sliding(const Cut& cut) {
   }
   const Index rest = joints_[a] == cut.joint ? a : b;
   Needle renewed = present(rest, cut.time);
-  if (!resumed_) check_partners(rest, joint.other(rest), cut.time);
+  if (!resumed_) {
+    check_partners(rest, joint.other(rest), cut.time);
+    check_walls(rest, cut.time, nullptr);
+  }
   needles_[rest] = renewed;
   needles_[rest].worn = 0;
   const Vector<double> r12 = nearest_separation(needles_[a], needles_[b]);
@@ -284,7 +317,8 @@ void Audit::go_on_sliding(const Cut& cut) {
   const bool may_stay = std::abs(touch.normal_velocity) <= normal_noise(renewed, renewed, touch) &&
                         touch.pressing(side) > -touch.noise;
   if (!may_stay && !resumed_) report(Kind::missed, a, b, cut.time);
-  JointMotion motion(needles_[a], needles_[b], r12, side, space_.rounding());
+  JointMotion motion(needles_[a], needles_[b], r12, side,
+                     space_.around(needles_[a].record.r).rounding());
   joints_[a] = joints_[b] = std::make_shared<Joint>(Joint{a, b, cut.time, std::move(motion)});
 }
 
@@ -375,6 +409,7 @@ double Audit::excess_over_contact(const Joint& joint, const Instant& now,
   const double speeds = static_cast<double>(touch.speeds);
   const double length = std::min(a.body.length, b.body.length);
   const double s = elapsed<double>(joint.begin, now).middle;
+  const double rounding = space_.around(a.record.r).rounding();
   const std::array noises = {noise_of(joint.motion, 0, s), noise_of(joint.motion, 1, s)};
   const std::array arms = {event.arm_first, event.arm_second};
   for (std::size_t i = 0; i < 2; ++i) {
@@ -383,11 +418,11 @@ double Audit::excess_over_contact(const Joint& joint, const Instant& now,
     const StateAfterCollision& after = event.after[i];
     const double noise = noises[i];
     add(static_cast<double>(touch.arms[i] - arms[i]),
-        (4 * std::max(noises[0], noises[1]) * length + space_.rounding()) / sine);
+        (4 * std::max(noises[0], noises[1]) * length + rounding) / sine);
     for (int axis = 0; axis < 3; ++axis) {
       double moved = after.position[axis] - record.r[axis];
       moved -= space_.box[axis] * space_.boxes_along<double>(axis, moved);
-      add(moved, noise * length + space_.rounding());
+      add(moved, noise * length + rounding);
       add(after.orientation[axis] - record.u[axis], noise);
       const double off = 4 * noise * speeds;
       add(after.velocity[axis] - record.v[axis], off + 0x1p-50 * norm(record.v));
@@ -402,6 +437,7 @@ void Audit::check_contact_end(const Instant& now, const Collision& event) {
   const std::shared_ptr<Joint> joint = joints_[a] ? joints_[a] : joints_[b];
   check_partners(a, b, now);
   check_partners(b, a, now);
+  for (const Index i : {a, b}) check_walls(i, now, nullptr);
   if (!joint || joint->first != a || joint->second != b || now < joint->begin) {
     report(Kind::spurious, a, b, now);
     check_flight(a, b, now);
@@ -442,7 +478,6 @@ void Audit::follow_contact_end(const Instant& now, const Collision& event) {
       needles_[i] = present(i, now);
     }
     has_collided_[i] = true;
-    met_[i] = now;
   }
   if (is_known) {
     std::erase_if(cuts_, [&](const Cut& cut) { return cut.joint == joint; });

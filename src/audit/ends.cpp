@@ -38,8 +38,8 @@ bool Audit::is_proper(const Needle& needle) const {
 // Neither tip is in a wall.
 bool Audit::is_inside(const Needle& needle) const {
   return std::ranges::all_of(walls_, [&](const Wall& wall) {
-    return TipFlight(needle, space_.gravity, wall, 1).height(0) >= -tip_tolerance() &&
-           TipFlight(needle, space_.gravity, wall, -1).height(0) >= -tip_tolerance();
+    return TipFlight(needle, space_.gravity, wall, 1).height(0) >= -tip_tolerance(needle) &&
+           TipFlight(needle, space_.gravity, wall, -1).height(0) >= -tip_tolerance(needle);
   });
 }
 

@@ -117,10 +117,7 @@ void Audit::with_motion(const Flown& flown, const Check& check) const {
   if (setup_.sliding && (joints_[flown.first] || joints_[flown.second])) {
     const Instant begin = begin_of(flown.first, flown.second);
     const auto guide = [&](Index i) {
-      const double delay = elapsed<double>(needles_[i].record.time, begin).middle;
-      Joint* joint = joints_[i].get();
-      return joint ? Guide{needles_[i], &joint->motion, joint->index(i), delay}
-                   : Guide{needles_[i], nullptr, 0, delay};
+      return guide_of(i, elapsed<double>(needles_[i].record.time, begin).middle);
     };
     GuidedFlight pair(guide(flown.first), guide(flown.second), shift, space_, flown.start,
                       flown.duration);

@@ -9,10 +9,9 @@ namespace needlework::audit {
 
 GuidedFlight::GuidedFlight(const Guide& first, const Guide& second, const Shift& shift,
                            const Space& space, const Start& start, double duration)
-    : PairMotion(first.needle.body, second.needle.body, space, start),
-      courses_{
-          Course{first.joint, first.index, first.delay, Flight<Extended>(first.needle.record)},
-          Course{second.joint, second.index, second.delay, Flight<Extended>(second.needle.record)}},
+    : PairMotion(first.needle.body, second.needle.body,
+                 space.around(first.needle.record.r).around(second.needle.record.r), start),
+      courses_{Course(first, space.gravity), Course(second, space.gravity)},
       image_() {
   for (int axis = 0; axis < 3; ++axis) image_[axis] = Extended(shift[axis]) * space.box[axis];
   bound(duration);
@@ -23,6 +22,15 @@ GuidedFlight::GuidedFlight(const Guide& first, const Guide& second, const Shift&
     offset_ = sample(0).f - *start.gap;
   }
 }
+
+// What gravity does from s = 0 on, it does to both.
+GuidedFlight::Course::Course(const Guide& guide, const Vector<double>& gravity)
+    : joint(guide.joint),
+      index(guide.index),
+      delay(guide.delay),
+      flight(guide.needle.record),
+      fallen(to<Extended>(gravity) * (Extended(delay) * delay / 2)),
+      falls(to<Extended>(gravity) * Extended(delay)) {}
 
 void GuidedFlight::bound(double duration) {
   std::array<JointMotion::Most, 2> most;
@@ -44,15 +52,28 @@ void GuidedFlight::bound(double duration) {
 }
 
 Stance GuidedFlight::Course::at(double s) const {
-  if (joint) return joint->at(index, delay + s);
-  const Pose<Extended> pose = flight.at(Extended(delay) + s);
-  return {pose.r, flight.v, pose.u, pose.du};
+  Stance out;
+  if (joint) {
+    out = joint->at(index, delay + s);
+  } else {
+    const Pose<Extended> pose = flight.at(Extended(delay) + s);
+    out = {pose.r, flight.v, pose.u, pose.du};
+  }
+  out.r = out.r + fallen + falls * Extended(s);
+  out.v = out.v + falls;
+  return out;
 }
 
 JointMotion::Most GuidedFlight::Course::most(double duration) const {
-  if (joint) return joint->most(index, delay, delay + duration);
-  return {.speed = static_cast<double>(norm(flight.v)) * upward,
-          .turning = static_cast<double>(flight.omega) * upward};
+  JointMotion::Most out;
+  if (joint) {
+    out = joint->most(index, delay, delay + duration);
+  } else {
+    out = {.speed = static_cast<double>(norm(flight.v)) * upward,
+           .turning = static_cast<double>(flight.omega) * upward};
+  }
+  out.speed += static_cast<double>(norm(falls)) * upward;
+  return out;
 }
 
 Sample GuidedFlight::sample(double s) const {

@@ -35,7 +35,9 @@ class GuidedFlight final : public PairMotion {
     int index;
     double delay;
     Flight<Extended> flight;
+    Vector<Extended> fallen, falls;  ///< what gravity has made of place and velocity until s = 0
 
+    Course(const Guide& guide, const Vector<double>& gravity);
     Stance at(double s) const;
     JointMotion::Most most(double duration) const;
   };

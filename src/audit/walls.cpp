@@ -50,7 +50,8 @@ std::vector<Wall> walls_of(const std::vector<Scene::Wall>& walls, const std::arr
 }
 
 TipFlight::TipFlight(const Needle& needle, const Vector<double>& gravity, const Wall& wall, int tip)
-    : sign_(wall.sign()),
+    : axis_(wall.axis),
+      sign_(wall.sign()),
       // The caps of rods touch with half their diameter.
       centre_(needle.record.r[wall.axis] - wall.place - sign_ * 0.5 * needle.body.diameter),
       speed_(needle.record.v[wall.axis]),
@@ -66,17 +67,38 @@ TipFlight::TipFlight(const Needle& needle, const Vector<double>& gravity, const 
             std::abs(arm_) * omega_ * omega_ * std::hypot(along_, across_) +
             amplitude_ * turn_ * turn_) {}
 
+TipFlight::TipFlight(const Guide& guide, double duration, const Vector<double>& gravity,
+                     const Wall& wall, int tip)
+    : TipFlight(guide.needle, gravity, wall, tip) {
+  if (!guide.joint) return;
+  joint_ = guide.joint;
+  index_ = guide.index;
+  centre_ -= guide.needle.record.r[wall.axis];
+  const JointMotion::Most most = joint_->most(index_, 0, duration);
+  bend_ = 2 * std::abs(half_fall_) + most.acceleration + std::abs(arm_) * most.turned_faster +
+          amplitude_ * turn_ * turn_;
+}
+
+TipFlight::Point TipFlight::tip_at(double s) const {
+  const double fall = half_fall_ * s;
+  if (joint_) {
+    const Stance stance = joint_->at(index_, s);
+    return {centre_ + static_cast<double>(stance.r[axis_] + arm_ * stance.u[axis_]) + fall * s,
+            static_cast<double>(stance.v[axis_] + arm_ * stance.du[axis_]) + 2 * fall};
+  }
+  const double cosine = std::cos(omega_ * s), sine = std::sin(omega_ * s);
+  return {centre_ + (speed_ + fall) * s + arm_ * (along_ * cosine + across_ * sine),
+          speed_ + 2 * fall + arm_ * omega_ * (across_ * cosine - along_ * sine)};
+}
+
 double TipFlight::height(double s) const {
-  const double tip = arm_ * (along_ * std::cos(omega_ * s) + across_ * std::sin(omega_ * s));
   const double surface = amplitude_ > 0 ? amplitude_ * std::sin(phase(s)) : 0;
-  return sign_ * (centre_ + (speed_ + half_fall_ * s) * s + tip - surface);
+  return sign_ * (tip_at(s).place - surface);
 }
 
 double TipFlight::rate(double s) const {
-  const double tip =
-      arm_ * omega_ * (across_ * std::cos(omega_ * s) - along_ * std::sin(omega_ * s));
   const double surface = amplitude_ > 0 ? amplitude_ * turn_ * std::cos(phase(s)) : 0;
-  return sign_ * (speed_ + 2 * half_fall_ * s + tip - surface);
+  return sign_ * (tip_at(s).velocity - surface);
 }
 
 // Halves intervals until bounds on the first and second derivatives show that the tip stays out.

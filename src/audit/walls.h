@@ -6,7 +6,7 @@
 
 #include "needlework/scene.h"
 #include "needlework/simulation.h"
-#include "src/audit/pair_flight.h"
+#include "src/audit/guided_flight.h"
 
 namespace needlework::audit {
 
@@ -34,6 +34,9 @@ class TipFlight {
  public:
   /// `tip` is 1 for the tip at which the director points, else -1.
   TipFlight(const Needle& needle, const Vector<double>& gravity, const Wall& wall, int tip);
+  /// The same of a needle that is guided since its record, for this time.
+  TipFlight(const Guide& guide, double duration, const Vector<double>& gravity, const Wall& wall,
+            int tip);
 
   double height(double s) const;  ///< [L]
   double rate(double s) const;    ///< its derivative
@@ -41,8 +44,14 @@ class TipFlight {
   std::optional<double> crossing(double from, double to, double tolerance) const;
 
  private:
+  struct Point {
+    double place, velocity;  ///< of the tip along the axis, with the wall at 0
+  };
+  Point tip_at(double s) const;
   double phase(double s) const { return angle_ + turn_ * s; }
 
+  const JointMotion* joint_ = nullptr;  ///< null in free flight
+  int index_ = 0, axis_;
   double sign_, centre_, speed_, half_fall_, arm_, along_, across_, omega_;
   double amplitude_, turn_, angle_;
   double bend_;  ///< bound on the second derivative

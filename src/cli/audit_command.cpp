@@ -41,15 +41,6 @@ struct Outcome {
   bool is_complete() const { return stop != Stop::interrupted && stop != Stop::wall_time; }
 };
 
-// Tips of needles in contact are not followed to walls. After a kick, needles that were in contact
-// may collide at its instant, before the audit sees the state after it.
-void require_auditable(const Scene& scene) {
-  if (!scene.collisions.sliding || (scene.walls.empty() && !scene.driving.kicks)) return;
-  throw InputError(place_of(scene, "collisions.sliding", "true") +
-                   ": expected false in a gas with walls or kicks, as the audit does not follow "
-                   "needles in contact there");
-}
-
 audit::Setup setup_of(const Scene& scene, const AuditArguments& arguments, double epoch_length) {
   const Scene::Collisions& collisions = scene.collisions;
   return {.epoch_length = epoch_length,
@@ -86,17 +77,9 @@ Outcome follow(Simulation& simulation, audit::Audit& audit, const Scene& scene, 
       if (progress.is_due(elapsed)) {
         progress.show(pace.after(elapsed));
       }
-      // At each kick the audit needs the state with which the engine goes on.
-      const double end = scene.until.time.value_or(HUGE_VAL), kick = audit.next_kick();
       Scene::Until until = scene.until;
-      if (kick <= end) until.time = kick;
       until.wall_s = longest_step;
       outcome.stop = simulation.advance(until);
-      // A kick may take so much energy that the run ends with it.
-      const bool kicked = kick <= end && simulation.time() == kick &&
-                          (outcome.stop == Stop::time || outcome.stop == Stop::energy);
-      if (kicked) audit.add_kick(simulation.copy());
-      if (kicked && outcome.stop == Stop::time && kick < end) continue;
       if (outcome.is_complete()) break;
     }
     // until.wall_s does not apply here: an audit that is continued with only these flights left
@@ -236,7 +219,6 @@ int run(const AuditArguments& arguments) {
   }
   const runs::LoadedScene loaded = load_scene(arguments.scene);
   const Scene& scene = loaded.scene;
-  require_auditable(scene);
   for (const std::string& warning : runs::all_warnings(loaded)) print_warning(warning);
   if (arguments.state)
     runs::require_writable(*arguments.state, true, "--state " + *arguments.state);
@@ -252,6 +234,7 @@ int run(const AuditArguments& arguments) {
   }
   audit.check_start(scene, loaded.initial ? &*loaded.initial : nullptr);
   simulation.on_happening([&](const Happening& happening) { audit.add(happening); });
+  simulation.on_kick([&] { audit.add_kick(simulation.copy()); });
   SignalGuard guard;
   guard.interrupt(simulation);
   const Outcome outcome = follow(simulation, audit, scene, arguments.quiet);

@@ -223,6 +223,7 @@ struct Simulation::Implementation {
   void kick() {
     loop->keep_in_order();
     replace([&] { return run.kick(); });
+    if (run.listeners.kick) run.listeners.kick();
   }
 
   Stop advance(Limits limits) {
@@ -358,6 +359,10 @@ void Simulation::on_collision(std::function<void(const Collision&)> callback) {
 
 void Simulation::on_collision_times(std::function<void(std::span<const double>)> callback) {
   implementation_->run.listeners.times = std::move(callback);
+}
+
+void Simulation::on_kick(std::function<void()> callback) {
+  implementation_->run.listeners.kick = std::move(callback);
 }
 
 void Simulation::on_happening(std::function<void(const Happening&)> callback) {

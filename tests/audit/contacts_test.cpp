@@ -10,53 +10,13 @@
 
 #include "needlework/error.h"
 #include "src/audit/joint_motion.h"
-#include "tests/support/audited.h"
+#include "tests/support/sliding_run.h"
 
 namespace needlework::test {
 namespace {
 
 using audit::Findings;
 using audit::Kind;
-
-Scene sliding_gas(std::uint64_t count, double density, double epsilon) {
-  Scene scene = scene_of(count, std::cbrt(static_cast<double>(count) / density));
-  scene.collisions.epsilon = epsilon;
-  scene.collisions.sliding = true;
-  return scene;
-}
-
-/// A run of the engine, recorded with all that the audit needs.
-struct SlidingRun {
-  Scene scene;
-  State initial;
-  std::vector<Happening> happenings;
-  audit::Setup setup;
-  double end = 0;
-  SlidingContacts contacts;
-
-  SlidingRun(const Scene& its_scene, double per_needle) : scene(its_scene) {
-    Simulation simulation(scene);
-    initial = simulation.copy();
-    setup = audit_setup(scene, simulation.epoch_length());
-    simulation.on_happening([&](const Happening& happening) { happenings.push_back(happening); });
-    simulation.advance(until_collisions(per_needle / audit_share));
-    end = simulation.time();
-    contacts = *simulation.sliding_contacts();
-  }
-
-  Findings audited() const {
-    audit::Audit audit(initial, setup);
-    for (const Happening& happening : happenings) audit.add(happening);
-    audit.finish(end);
-    return audit.findings();
-  }
-  // Of the first n reports only.
-  void stop_after(std::size_t n) {
-    if (n >= happenings.size()) return;
-    happenings.resize(n);
-    end = happenings.back().event.time;
-  }
-};
 
 Scene sliding_mixture() {
   Scene scene = scene_of(0, 5);
@@ -113,8 +73,8 @@ TEST(AuditOfContacts, FindsNothingWrongWithMixtures) {
   expect_clean_run(small, 10, 12);
 }
 
-// A light needle that swings on a heavy one: what is rounded at the beginning of a contact has grown
-// by 2e4 at its end.
+// A light needle that swings on a heavy one: what is rounded at the beginning of a contact has
+// grown by 2e4 at its end.
 TEST(AuditOfContacts, KnowsHowFarRoundingGrowsBetweenHeavyAndLightNeedles) {
   Scene scene = scene_of(0, 1);
   scene.needles.box = {3.075, 4.603, 3.133};
@@ -122,12 +82,7 @@ TEST(AuditOfContacts, KnowsHowFarRoundingGrowsBetweenHeavyAndLightNeedles) {
   scene.collisions = {.epsilon = 0.5, .sliding = true};
   scene.species = {
       {.name = "long", .count = 40, .length = 1.2152842639254506, .mass = 1e6, .k = 1},
-      {.name = "middle",
-       .count = 5,
-       .length = 1.0039665989085633,
-       .mass = 1e6,
-       .k = 1,
-       .t_rot = 0},
+      {.name = "middle", .count = 5, .length = 1.0039665989085633, .mass = 1e6, .k = 1, .t_rot = 0},
       {.name = "light", .count = 5, .length = 0.3, .mass = 1e-3, .k = 100, .t_rot = 0}};
   expect_clean_run(scene, 2 * audit_share, 2);
 }

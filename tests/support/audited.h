@@ -26,16 +26,12 @@ inline audit::Findings audited(const Scene& scene, double time, const audit::Set
   audit::Audit audit(simulation.copy(), setup);
   audit.check_start(scene, nullptr);
   simulation.on_happening([&](const Happening& happening) { audit.add(happening); });
-  Stop stop = Stop::time;
-  for (bool kicked = true; kicked;) {
-    const double kick = audit.next_kick();
-    stop = simulation.advance(until_time(std::min(time, kick)));
-    kicked = stop == Stop::time && kick <= time;
-    if (!kicked) continue;
+  simulation.on_kick([&] {
     State after = simulation.copy();
     if (alter) alter(after);
     audit.add_kick(after);
-  }
+  });
+  const Stop stop = simulation.advance(until_time(time));
   audit.finish(simulation.time());
   audit.check_end(until_time(time), stop, simulation.time());
   return audit.findings();
