@@ -10,7 +10,6 @@
 namespace needlework::kernels {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // Needles farther apart, by the sum of their half lengths, do not touch, however small f is.
 constexpr double touching_within = 0x1p-18;
 constexpr int last_depth = 60;
