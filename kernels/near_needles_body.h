@@ -494,8 +494,8 @@ NEEDLEWORK_INLINE void repeat_pairs(const PairColumns& pairs, std::size_t k, std
   constexpr int columns = wide ? PairColumns::columns : PairColumns::distance;
   for (std::size_t p = 1; p < parts; ++p) {
     for (std::size_t lane = 0; lane < count; lane += floats_at_once) {
-      for (int c = 0; c < columns; ++c) {
-        float* const column = pairs.column[c];
+      for (float* const* each = pairs.column; each != pairs.column + columns; ++each) {
+        float* const column = *each;
         store_floats(load_floats(column + k + lane), column + k + p * count + lane);
       }
       store_floats(Floats(static_cast<float>(p)), part + p * count + lane);

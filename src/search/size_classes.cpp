@@ -91,13 +91,15 @@ constexpr double least_for_capsules = 3;
 double crowding_of_class(const Gas& gas, const SizeClasses& classes, std::size_t number,
                          double density) {
   const Composition& composition = gas.composition;
+  const std::vector<std::size_t> counts = counts_of_species(gas);
   double area = 0, members = 0;
   for (std::size_t a = 0; a < composition.size(); ++a) {
-    const auto count = static_cast<double>(composition[a].count);
+    const auto count = static_cast<double>(counts[a]);
     if (count == 0 || classes.of_species[a] != number) continue;
     members += count;
-    for (const Species& other : composition.species()) {
-      area += count * static_cast<double>(other.count) * excluded_area(composition[a], other);
+    for (std::size_t b = 0; b < composition.size(); ++b) {
+      area +=
+          count * static_cast<double>(counts[b]) * excluded_area(composition[a], composition[b]);
     }
   }
   const double square = gas.longest * gas.longest, all = static_cast<double>(gas.size()) * members;
