@@ -77,7 +77,7 @@ TEST(Choice, OfTheSearchIsByTheMeanLength) {
   };
   EXPECT_EQ(density_by_mean(7, {}), 7);
   EXPECT_EQ(density_by_mean(7, mixture(100)), 7);
-  EXPECT_DOUBLE_EQ(density_by_mean(512, mixture(0)), 1);
+  EXPECT_DOUBLE_EQ(density_by_mean(512, mixture(0)), 512);  // per cube of those that are there
   EXPECT_DOUBLE_EQ(mean_length(mixture(50)), 0.5625);
   for (const double density : {3.0, 100.0}) {
     EXPECT_EQ(chosen_search("auto", density, mixture(100)), "capsules");
