@@ -431,8 +431,9 @@ NEEDLEWORK_INLINE SimdShares free_around(const SimdSample& e, const SimdBounds& 
 /// bracket() for the vector that begins with pair k, of those before `end`. `part` holds which of
 /// the `parts` of its pair's time each pair of the vector is searched in.
 template <bool wide>
-inline std::size_t bracket_vector(const Seeker& seeker, const PairColumns& pairs, std::size_t k,
-                                  std::size_t end, const float* part, std::size_t parts) {
+NEEDLEWORK_INLINE std::size_t bracket_vector(const Seeker& seeker, const PairColumns& pairs,
+                                             std::size_t k, std::size_t end, const float* part,
+                                             std::size_t parts) {
   using C = PairColumns;
   constexpr float infinity = std::numeric_limits<float>::infinity();
   const Floats zero(0.0f), one(1.0f), half(0.5f), margin(static_cast<float>(time_margin));
