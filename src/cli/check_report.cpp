@@ -54,7 +54,7 @@ double mean_free_time_of(const runs::Explanation& e, const Composition& composit
                          std::size_t species) {
   double collisions = 0;
   for (std::size_t other = 0; other < composition.size(); ++other) {
-    const double rate = e.rates[composition.pair_index(species, other)];
+    const double rate = e.counted_rates[composition.pair_index(species, other)];
     collisions += species == other ? 2 * rate : rate;
   }
   return static_cast<double>(composition[species].count) / collisions;

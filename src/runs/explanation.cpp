@@ -122,6 +122,7 @@ Explanation::Explanation(const LoadedScene& loaded)
       rate_exact(equilibrium_rate(scene, initial.energy())),
       rates(rates_of(loaded)),
       walls(walls_of(loaded)),
+      counted_rates(rates.empty() ? rates : counted_rates_by_pair(loaded)),
       gravity(gravity_of(loaded)),
       kick_power(kick_power_of(scene)),
       expected(expected_of(loaded)),

@@ -41,6 +41,7 @@ struct Explanation {
   /// Of a mixture: collisions of each two species per time at the start, by
   /// Composition::pair_index; empty if they are too many.
   std::vector<double> rates;
+  std::vector<double> counted_rates;  ///< the same, as runs::counted_rates_by_pair()
   std::vector<ExplainedWall> walls;
   std::vector<ExplainedGravity> gravity;  ///< along the axes along which there is some
   double kick_power;                      ///< energy per needle and time that kicks give
