@@ -422,7 +422,7 @@ NEEDLEWORK_API const char* needlework_data_name(needlework_simulation* simulatio
 
 typedef struct needlework_totals {
   double time;            /* since the start */
-  double t_tr, t_rot;     /* (2/3) <m v^2 / 2> and <I w^2 / 2> */
+  double t_tr, t_rot;     /* (2/3) <m v^2 / 2>, and <I w^2 / 2> of those that turn */
   double energy;          /* per needle */
   double initial_energy;  /* per needle, at the start; NaN without needles */
   double momentum[3];     /* of all needles */

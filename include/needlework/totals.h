@@ -12,9 +12,9 @@ namespace needlework {
 struct Totals {
   double time = 0;                   ///< since the start of the run [time]
   double t_tr = 0;                   ///< (2/3) <m v^2 / 2>
-  double t_rot = 0;                  ///< <I w^2 / 2>
-  double energy = 0;                 ///< per needle; with gravity g that of -m g r, r counted
-                                     ///< from the low edges of the box
+  double t_rot = 0;                  ///< <I w^2 / 2> of those that turn, which spheres do not
+  double energy = 0;                 ///< per needle; with gravity g along axes with walls that of
+                                     ///< -m g r, r counted from the low edges of the box
   std::array<double, 3> momentum{};  ///< total
   std::uint64_t collisions = 0;      ///< since the start of the run
   std::uint64_t tc_collisions = 0;

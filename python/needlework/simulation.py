@@ -38,7 +38,7 @@ class Totals(Values):
     t_tr: float
     """Translational temperature, two thirds of the mean energy of translation."""
     t_rot: float
-    """Rotational temperature, the mean energy of rotation."""
+    """Rotational temperature, the mean energy of rotation of bodies that turn."""
     energy: float
     """Energy per needle."""
     momentum: np.ndarray

@@ -93,7 +93,7 @@ std::vector<SpeciesTotals> species_totals(const Gas& gas, const std::vector<Sums
 
 namespace {
 
-// Means over all needles.
+// Means over all needles; T_rot of those that turn.
 void set_temperatures(const Gas& gas, const std::vector<SumsOfSquares>& sums, Totals& out) {
   if (gas.size() == 0) return;
   out.t_tr = out.t_rot = 0;
@@ -102,7 +102,9 @@ void set_temperatures(const Gas& gas, const std::vector<SumsOfSquares>& sums, To
     out.t_tr += share * of.t_tr;
     out.t_rot += share * of.t_rot;
   }
-  out.energy = 1.5 * out.t_tr + out.t_rot;
+  const double turning = gas.composition.turning_share();
+  if (turning > 0) out.t_rot /= turning;
+  out.energy = 1.5 * out.t_tr + turning * out.t_rot;
 }
 
 double potential_of(const Gas& gas, const std::vector<SumsOfSquares>& sums) {

@@ -80,7 +80,8 @@ std::vector<ExplainedWall> walls_of(const LoadedScene& loaded) {
 std::vector<ExplainedGravity> gravity_of(const LoadedScene& loaded) {
   const Composition composition = loaded.scene.composition();
   const theory::Temperatures start = initial_temperatures(loaded);
-  const double temperature = (3 * start.t_tr + 2 * start.t_rot) / 5;
+  const double temperature = 2 * start.energy() / (3 + 2 * start.turning);
+  const std::array<bool, 3> periodic = loaded.scene.periodic();
   std::vector<ExplainedGravity> out;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double pull = std::abs(loaded.scene.forces.gravity[axis]);

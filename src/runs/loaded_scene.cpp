@@ -90,19 +90,22 @@ Totals totals_of(const State& state, const Scene& scene) {
       fall -= species.mass * gravity[axis] * state.position[i][axis];
     }
   }
-  totals.energy = 1.5 * totals.t_tr + totals.t_rot;
+  const double turning = composition.turning_share();
+  if (turning > 0) totals.t_rot /= turning;
+  totals.energy = 1.5 * totals.t_tr + turning * totals.t_rot;
   if (fall != 0) totals.energy += fall / count;
   return totals;
 }
 
 theory::Temperatures initial_temperatures(const LoadedScene& loaded) {
   if (!loaded.initial) {
-    const Composition composition = loaded.scene.composition();
-    if (!composition.is_mixture()) return {composition[0].t_tr, composition[0].t_rot};
+  const Composition composition = loaded.scene.composition();
+    const double turning = composition.turning_share();
+    if (!composition.is_mixture()) return {composition[0].t_tr, composition[0].t_rot, turning};
     return theory::mean_of_species(composition, temperatures_by_species(loaded));
   }
   const Totals totals = totals_of(*loaded.initial, loaded.scene);
-  return {totals.t_tr, totals.t_rot};
+  return {totals.t_tr, totals.t_rot, composition.turning_share()};
 }
 
 std::vector<theory::Temperatures> temperatures_by_species(const LoadedScene& loaded) {

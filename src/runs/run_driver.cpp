@@ -195,9 +195,10 @@ void RunDriver::require_restored(const Archive& archive) const {
   const double now = simulation_.time() * (1 - 0x1p-50);
   archive.require(series_.is_rest_of(series_schedule(scene_.output, 1), now) &&
                   frames_.is_rest_of(frame_schedule(scene_.output, 1), now));
+  const double turning = simulation_.composition().turning_share();
   const bool falls = has_gravity(scene_);
   archive.require(std::ranges::all_of(
-      course_.samples, [&](const Totals& sample) { return are_possible(sample, falls); }));
+      course_.samples, [&](const Totals& sample) { return are_possible(sample, turning, falls); }));
   // A run begins with a sample, with which that of its end is compared.
   archive.require(!begun_ || last_sample_);
 }
