@@ -444,6 +444,7 @@ typedef struct needlework_energy_budget {
   double thermostat;     /* the thermostat */
   double kicks;          /* kicks */
   double velocities_set; /* velocities that the caller has replaced */
+  double gravity;        /* its work along periodic axes */
 } needlework_energy_budget;
 
 /* The budget of energy at the present time. [handle] */

@@ -69,6 +69,7 @@ struct EnergyBudget {
   std::vector<double> walls;         ///< hits on each wall, in the order of wall_totals()
   std::optional<double> thermostat;  ///< if there is one
   std::optional<double> kicks;       ///< if there are some
+  std::optional<double> gravity;     ///< its work along periodic axes, if there is some
   double velocities_set = 0;         ///< velocities that a caller has replaced
 
   /// Calls visit(name, value) for each that there is; the value of walls is an array.
@@ -78,6 +79,7 @@ struct EnergyBudget {
     if (!walls.empty()) visit("walls", walls);
     if (thermostat) visit("thermostat", *thermostat);
     if (kicks) visit("kicks", *kicks);
+    if (gravity) visit("gravity", *gravity);
     visit("velocities_set", velocities_set);
   }
 };

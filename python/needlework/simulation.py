@@ -121,6 +121,8 @@ class EnergyBudget(Values):
     """By the thermostat."""
     kicks: float
     """By kicks."""
+    gravity: float
+    """By gravity along periodic axes."""
     velocities_set: float
     """By set_velocities()."""
 

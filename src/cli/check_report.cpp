@@ -187,10 +187,15 @@ std::string gravity_lines(const runs::Explanation& e) {
     if (text.empty()) {
       text = line("gravity", fmt::format("({:g})", fmt::join(e.scene.forces.gravity, ", ")));
     }
-    text += line(
-        "", fmt::format("along {}: weight N m g = {:.4g}, scale height T / (m g) = {:.4g} "
-                        "at the start",
-                        "xyz"[along.axis], along.weight, fmt::join(along.scale_heights, ", ")));
+    const char axis = "xyz"[along.axis];
+    text +=
+        line("", along.scale_heights.empty()
+                     ? fmt::format("along {}, which is periodic: thermal walls brake with N m g "
+                                   "= {:.4g} in the steady state",
+                                   axis, along.weight)
+                     : fmt::format("along {}: weight N m g = {:.4g}, scale height T / (m g) = "
+                                   "{:.4g} at the start",
+                                   axis, along.weight, fmt::join(along.scale_heights, ", ")));
   }
   return text;
 }

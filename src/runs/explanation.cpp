@@ -89,7 +89,7 @@ std::vector<ExplainedGravity> gravity_of(const LoadedScene& loaded) {
     ExplainedGravity& along = out.emplace_back(ExplainedGravity{.axis = axis});
     for (const Species& each : composition.species()) {
       along.weight += static_cast<double>(each.count) * each.mass * pull;
-      along.scale_heights.push_back(temperature / (each.mass * pull));
+      if (!periodic[axis]) along.scale_heights.push_back(temperature / (each.mass * pull));
     }
   }
   return out;
@@ -122,8 +122,8 @@ Explanation::Explanation(const LoadedScene& loaded)
       mean_free_time(mean_free_time_of(initial_collision_rate(loaded))),
       rate_exact(equilibrium_rate(scene, initial.energy())),
       rates(rates_of(loaded)),
-      walls(walls_of(loaded)),
       counted_rates(rates.empty() ? rates : counted_rates_by_pair(loaded)),
+      walls(walls_of(loaded)),
       gravity(gravity_of(loaded)),
       kick_power(kick_power_of(scene)),
       expected(expected_of(loaded)),

@@ -20,11 +20,14 @@ struct ExplainedWall {
   double force = 0;  ///< mean, of all needles [energy / L]
 };
 
-/// What gravity does along an axis, in the steady state over a floor without a ceiling.
+/// What gravity does along an axis, in the steady state: over a floor without a ceiling, or along a
+/// periodic axis beside thermal walls.
 struct ExplainedGravity {
   std::size_t axis = 0;
-  double weight = 0;  ///< of all needles: the mean force on the floor [energy / L]
-  /// T / (m g) of each species, at the temperature of the start: T = (3 T_tr + 2 T_rot) / 5 [L]
+  double weight = 0;  ///< of all needles: the mean force on the floor, or on the faces of the
+                      ///< walls beside a periodic axis [energy / L]
+  /// T / (m g) of each species, at the temperature of the start: T = (3 T_tr + 2 T_rot) / 5; empty
+  /// along a periodic axis [L]
   std::vector<double> scale_heights = {};
 };
 

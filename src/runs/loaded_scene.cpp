@@ -79,6 +79,7 @@ Totals totals_of(const State& state, const Scene& scene) {
   Totals totals;
   const double count = static_cast<double>(state.size());
   const std::array<double, 3>& gravity = scene.forces.gravity;
+  const std::array<bool, 3> periodic = scene.periodic();
   double fall = 0;  // potential energy
   for (std::size_t i = 0; i < state.size(); ++i) {
     const Species& species = composition[composition.is_mixture() ? indices.at(i) : 0];
@@ -87,7 +88,7 @@ Totals totals_of(const State& state, const Scene& scene) {
     totals.t_rot += inertia * square(state.angular_velocity[i]) / (2 * count);
     for (int axis = 0; axis < 3; ++axis) {
       totals.momentum[axis] += species.mass * state.velocity[i][axis];
-      fall -= species.mass * gravity[axis] * state.position[i][axis];
+      if (!periodic[axis]) fall -= species.mass * gravity[axis] * state.position[i][axis];
     }
   }
   const double turning = composition.turning_share();
@@ -98,8 +99,8 @@ Totals totals_of(const State& state, const Scene& scene) {
 }
 
 theory::Temperatures initial_temperatures(const LoadedScene& loaded) {
-  if (!loaded.initial) {
   const Composition composition = loaded.scene.composition();
+  if (!loaded.initial) {
     const double turning = composition.turning_share();
     if (!composition.is_mixture()) return {composition[0].t_tr, composition[0].t_rot, turning};
     return theory::mean_of_species(composition, temperatures_by_species(loaded));
