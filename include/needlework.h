@@ -347,7 +347,9 @@ typedef struct needlework_rods {
   double packing_fraction; /* volume of all rods over that of the box */
   double virial; /* sum of r12 . dp over the collisions since the start, r12 from the second centre
                     to the first and dp the impulse on the first */
-  double pressure; /* (N t_tr + virial / (3 t)) / V at the present time t; NaN at the start */
+  double pressure; /* mean over the run: (N <t_tr> + virial / (3 t)) / V or, where there are walls,
+                      what all of them feel over their area; NaN at the start, and with gravity
+                      along an axis with walls */
 } needlework_rods;
 
 /* Copies what is known of rods at the present time. [handle] */

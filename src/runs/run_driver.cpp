@@ -284,6 +284,8 @@ void RunDriver::sample(bool series, bool frame) {
       species.walls = simulation_.wall_totals();
       species.energy = simulation_.energy_budget();
       species.virial = simulation_.virial();
+      if (simulation_.composition().has_width())
+        species.t_tr_integral = simulation_.t_tr_integral();
       species.contacts = simulation_.sliding_contacts().value_or(SlidingContacts{});
       const auto values = observation->sample(state, totals, species);
       if (writer) writer->write_series(totals, values);
