@@ -347,7 +347,9 @@ typedef struct needlework_rods {
   double packing_fraction; /* volume of all rods over that of the box */
   double virial; /* sum of r12 . dp over the collisions since the start, r12 from the second centre
                     to the first and dp the impulse on the first */
-  double pressure; /* (N t_tr + virial / (3 t)) / V at the present time t; NaN at the start */
+  double pressure; /* mean over the run: (N <t_tr> + virial / (3 t)) / V or, where there are walls,
+                      what all of them feel over their area; NaN at the start, and with gravity
+                      along an axis with walls */
 } needlework_rods;
 
 /* Copies what is known of rods at the present time. [handle] */
@@ -422,7 +424,7 @@ NEEDLEWORK_API const char* needlework_data_name(needlework_simulation* simulatio
 
 typedef struct needlework_totals {
   double time;            /* since the start */
-  double t_tr, t_rot;     /* (2/3) <m v^2 / 2> and <I w^2 / 2> */
+  double t_tr, t_rot;     /* (2/3) <m v^2 / 2>, and <I w^2 / 2> of those that turn */
   double energy;          /* per needle */
   double initial_energy;  /* per needle, at the start; NaN without needles */
   double momentum[3];     /* of all needles */
@@ -444,6 +446,7 @@ typedef struct needlework_energy_budget {
   double thermostat;     /* the thermostat */
   double kicks;          /* kicks */
   double velocities_set; /* velocities that the caller has replaced */
+  double gravity;        /* its work along periodic axes */
 } needlework_energy_budget;
 
 /* The budget of energy at the present time. [handle] */

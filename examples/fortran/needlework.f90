@@ -112,7 +112,7 @@ module needlework
   end type
 
   type, bind(c) :: needlework_energy_budget
-    real(c_double) :: pairs, walls, thermostat, kicks, velocities_set
+    real(c_double) :: pairs, walls, thermostat, kicks, velocities_set, gravity
   end type
 
   abstract interface

@@ -87,6 +87,8 @@ class Composition {
   /// Whether these are rods, which collide where their axes are their mean diameter apart.
   bool has_width() const { return widest() > 0; }
   bool are_spheres() const;  ///< whether no body has an axis
+  /// Share of the bodies that turn, over which rotational temperatures are averaged; 1 of none.
+  double turning_share() const;
   /// The distance of the axes of two rods in contact. [L]
   double contact_distance(std::size_t a, std::size_t b) const {
     return 0.5 * (species_[a].diameter + species_[b].diameter);

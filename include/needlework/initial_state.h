@@ -15,4 +15,14 @@ namespace needlework {
 /// room is found.
 State draw_initial_state(const Scene& scene);
 
+/// How draw_initial_state() is expected to place the rods of a scene.
+struct PlannedPlacement {
+  bool on_lattice = false;
+  double tries = 0;       ///< of each rod that is inserted, on average, or about so many
+  double collisions = 0;  ///< of each rod that is moved from its place on a lattice
+};
+/// Throws InputError where draw_initial_state() would find no room, as far as that can be known
+/// before.
+PlannedPlacement plan_placement(const Scene& scene);
+
 }  // namespace needlework

@@ -122,6 +122,10 @@ class Simulation {
   /// a third of what comes to it in a unit of time. 0 for needles. [m L^2 / time]
   double virial() const;
 
+  /// Integral of Totals::t_tr over the time since the start, from its values at the ends of windows
+  /// of about a mean free time and now. [energy time]
+  double t_tr_integral() const;
+
   Totals totals() const;
   /// Of each species, in the order of the scene.
   std::vector<SpeciesTotals> species_totals() const;

@@ -29,7 +29,8 @@ struct Gas {
 struct Temperatures {
   double t_tr = 1.0;   ///< 2/3 of the translational energy of a needle
   double t_rot = 1.0;  ///< the rotational energy of a needle
-  double energy() const { return 1.5 * t_tr + t_rot; }  ///< per needle
+  double turning = 1;  ///< share of the needles that turn, as spheres do not
+  double energy() const { return 1.5 * t_tr + turning * t_rot; }  ///< per needle
 };
 
 /// Integral over the unit square, centred at the origin, of sqrt(1 + q k r^2), with
@@ -157,8 +158,8 @@ double second_virial(const Composition& composition);
 std::vector<double> mixture_equilibrium_rates(const Composition& composition, double volume,
                                               double total_energy, int conserved = 3);
 
-/// The temperatures of all needles together, so that they give the mean energy: spheres, which do
-/// not turn, count with a rotational temperature of 0.
+/// The temperatures of all needles together, so that they give the mean energy: T_rot is that of
+/// those that turn, which spheres do not.
 Temperatures mean_of_species(const Composition& composition, std::span<const Temperatures> each);
 
 /// The temperatures of each species at each of the times (finite, >= 0, any order), from those

@@ -12,9 +12,9 @@ namespace needlework {
 struct Totals {
   double time = 0;                   ///< since the start of the run [time]
   double t_tr = 0;                   ///< (2/3) <m v^2 / 2>
-  double t_rot = 0;                  ///< <I w^2 / 2>
-  double energy = 0;                 ///< per needle; with gravity g that of -m g r, r counted
-                                     ///< from the low edges of the box
+  double t_rot = 0;                  ///< <I w^2 / 2> of those that turn, which spheres do not
+  double energy = 0;                 ///< per needle; with gravity g along axes with walls that of
+                                     ///< -m g r, r counted from the low edges of the box
   std::array<double, 3> momentum{};  ///< total
   std::uint64_t collisions = 0;      ///< since the start of the run
   std::uint64_t tc_collisions = 0;
@@ -69,6 +69,7 @@ struct EnergyBudget {
   std::vector<double> walls;         ///< hits on each wall, in the order of wall_totals()
   std::optional<double> thermostat;  ///< if there is one
   std::optional<double> kicks;       ///< if there are some
+  std::optional<double> gravity;     ///< its work along periodic axes, if there is some
   double velocities_set = 0;         ///< velocities that a caller has replaced
 
   /// Calls visit(name, value) for each that there is; the value of walls is an array.
@@ -78,6 +79,7 @@ struct EnergyBudget {
     if (!walls.empty()) visit("walls", walls);
     if (thermostat) visit("thermostat", *thermostat);
     if (kicks) visit("kicks", *kicks);
+    if (gravity) visit("gravity", *gravity);
     visit("velocities_set", velocities_set);
   }
 };

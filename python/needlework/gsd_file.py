@@ -39,7 +39,9 @@ def to_gsd(source: Union[Recording, str, os.PathLike, Any], path: str, frames: A
     ``log["length"]`` and ``log["diameter"]``. The species of a mixture are its types. GSD has no
     angular velocity: it is in ``log["particles/angular_velocity"]``, in double precision, and the
     time is in ``log["time"]``. HOOMD-blue's boxes are periodic; ``log["periodic"]`` has 0 for axes
-    with walls.
+    with walls. Along these a box encloses bodies beyond its edges, as above an open side:
+    ``log["edges"]`` are the edges of the run, and ``log["centre"]`` is where the origin of the file is
+    in the run.
     The step of a frame is the number of collisions before it. Needs python3-gsd.
     """
     import gsd.hoomd
@@ -84,10 +86,11 @@ def _snapshot(frame: Any, gas: Any, names: list[str]) -> Any:
     count = len(frame.position)
     collisions = frame.collisions if hasattr(frame, "collisions") else frame.totals.collisions
     snapshot.configuration.step = collisions
-    snapshot.configuration.box = [*frame.box, 0, 0, 0]
     # One number, or one for each species of a mixture.
     lengths, masses, shapes = (np.atleast_1d(value) for value in (gas.length, gas.mass, gas.k))
     diameters = np.atleast_1d(gas.get("diameter", np.zeros_like(lengths)))
+    low, high = _bounds(frame, np.max(lengths + diameters) / 2)
+    snapshot.configuration.box = [*(high - low), 0, 0, 0]
     inertia = masses * lengths**2 / (2 * shapes)
     species = frame.species if len(lengths) > 1 else np.zeros(count, dtype=np.uint8)
     particles = snapshot.particles
@@ -96,7 +99,7 @@ def _snapshot(frame: Any, gas: Any, names: list[str]) -> Any:
     particles.type_shapes = [_shape(length, diameter) for length, diameter in
                              zip(lengths.tolist(), diameters.tolist())]
     particles.typeid = species.astype(np.uint32)
-    particles.position = frame.position - frame.box / 2
+    particles.position = frame.position - (low + high) / 2
     particles.image = frame.image
     particles.velocity = frame.velocity
     particles.orientation = quaternions(frame.orientation)
@@ -106,8 +109,19 @@ def _snapshot(frame: Any, gas: Any, names: list[str]) -> Any:
     snapshot.log = {"particles/angular_velocity": np.asarray(frame.angular_velocity),
                     "time": np.array([frame.time]),
                     "length": lengths.astype(float), "diameter": diameters.astype(float),
-                    "periodic": frame.periodic.astype(np.uint8)}
+                    "periodic": frame.periodic.astype(np.uint8),
+                    "edges": np.asarray(frame.box, dtype=float), "centre": (low + high) / 2}
     return snapshot
+
+
+def _bounds(frame: Any, reach: float) -> tuple[np.ndarray, np.ndarray]:
+    """Of the box and, along axes with walls, of centres beyond it and so much more."""
+    low, high = np.zeros(3), np.array(frame.box, dtype=float)
+    if len(frame.position) > 0:
+        least, most = np.min(frame.position, axis=0), np.max(frame.position, axis=0)
+        low = np.where(~frame.periodic & (least < low), least - reach, low)
+        high = np.where(~frame.periodic & (most > high), most + reach, high)
+    return low, high
 
 
 def _shape(length: float, diameter: float) -> dict[str, Any]:

@@ -104,9 +104,9 @@ def _theory(series: Series, gas: Values, by_species: Values | None) -> tuple[np.
     times = series.time[(series.time > 0) & (series.time <= last)]
     if by_species is not None:
         curve = theory.mixture_cooling(gas, by_species.t_tr[0], by_species.t_rot[0], times)
-        share = gas.counts / gas.count
-        return times, Values({"energy": curve.energy, "t_tr": curve.t_tr @ share,
-                              "t_rot": curve.t_rot @ share})
+        turning = np.where(gas.length > 0, gas.counts, 0)
+        return times, Values({"energy": curve.energy, "t_tr": curve.t_tr @ gas.counts / gas.count,
+                              "t_rot": curve.t_rot @ turning / np.sum(turning)})
     if "diameter" in gas:
         curve = theory.mixture_cooling(gas, series.t_tr[0], series.t_rot[0], times)
         return times, Values({"energy": curve.energy, "t_tr": curve.t_tr[:, 0],

@@ -56,7 +56,7 @@ class Series(Table):
     t_tr: np.ndarray
     """Translational temperature, two thirds of the mean energy of translation."""
     t_rot: np.ndarray
-    """Rotational temperature, the mean energy of rotation."""
+    """Rotational temperature, the mean energy of rotation of bodies that turn."""
     energy: np.ndarray
     """Energy per needle."""
     momentum: np.ndarray

@@ -38,7 +38,7 @@ class Totals(Values):
     t_tr: float
     """Translational temperature, two thirds of the mean energy of translation."""
     t_rot: float
-    """Rotational temperature, the mean energy of rotation."""
+    """Rotational temperature, the mean energy of rotation of bodies that turn."""
     energy: float
     """Energy per needle."""
     momentum: np.ndarray
@@ -86,7 +86,9 @@ class RodTotals(Values):
     """Sum of r12 . dp over the collisions since the start, r12 from the second centre to the first
     and dp the impulse on the first."""
     pressure: float
-    """(N T_tr + virial / (3 t)) / V at the present time t, T_tr and volume V; NaN at the start."""
+    """Mean over the run; NaN at its start, and where it depends on the height."""
+    pressure_meaning: str
+    """Which mean that is: by the virial, on the walls, or why there is none."""
 
 
 class SlidingContacts(Values):
@@ -121,6 +123,8 @@ class EnergyBudget(Values):
     """By the thermostat."""
     kicks: float
     """By kicks."""
+    gravity: float
+    """By gravity along periodic axes."""
     velocities_set: float
     """By set_velocities()."""
 

@@ -44,15 +44,16 @@ bool Audit::is_inside(const Needle& needle) const {
 }
 
 // With the potential energy, which a flight keeps. Heights count from the edges to which gravity
-// points.
+// points. Along periodic axes there is none, and no end depends on the energy.
 double Audit::energy() const {
-  Vector<double> lowest{};
+  Vector<double> lowest{}, weight = space_.gravity;
   for (int axis = 0; axis < 3; ++axis) {
-    if (space_.gravity[axis] > 0) lowest[axis] = space_.box[static_cast<std::size_t>(axis)];
+    if (space_.periodic[static_cast<std::size_t>(axis)]) weight[axis] = 0;
+    if (weight[axis] > 0) lowest[axis] = space_.box[static_cast<std::size_t>(axis)];
   }
   long double sum = energy_of(needles_);
   for (const Needle& needle : needles_) {
-    sum += needle.body.mass * dot(space_.gravity, lowest - needle.record.r);
+    sum += needle.body.mass * dot(weight, lowest - needle.record.r);
   }
   return static_cast<double>(sum);
 }

@@ -117,12 +117,13 @@ double excluded(const Temperatures& gas_a, const Body& a, const Temperatures& ga
 
 double mean_free_time(std::span<const Temperatures> gas, std::span<const Body> bodies,
                       double volume) {
+  // Thin needles count as partners of themselves.
+  const bool thin = std::ranges::none_of(bodies, [](const Body& b) { return b.diameter > 0; });
   double collisions = 0, count = 0;  // those of a needle with each other, both counted
   for (std::size_t a = 0; a < gas.size(); ++a) {
     count += gas[a].count;
     for (std::size_t b = 0; b < gas.size(); ++b) {
-      const bool counts_itself = gas.size() == 1 && bodies[a].diameter == 0;
-      const double partners = gas[b].count - (a == b && !counts_itself ? 1 : 0);
+      const double partners = gas[b].count - (a == b && !thin ? 1 : 0);
       if (!(gas[a].count > 0 && partners > 0)) continue;
       collisions += gas[a].count * partners * excluded(gas[a], bodies[a], gas[b], bodies[b]);
     }

@@ -61,6 +61,7 @@ int needlework_get_energy_budget(needlework_simulation* simulation,
                .walls = std::accumulate(found.walls.begin(), found.walls.end(), 0.0),
                .thermostat = found.thermostat.value_or(0),
                .kicks = found.kicks.value_or(0),
-               .velocities_set = found.velocities_set};
+               .velocities_set = found.velocities_set,
+               .gravity = found.gravity.value_or(0)};
   });
 }

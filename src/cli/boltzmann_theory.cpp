@@ -21,6 +21,13 @@ using boltzmann::Means, boltzmann::Measured, boltzmann::Pairs, boltzmann::Result
     boltzmann::Settings;
 using Json = nlohmann::ordered_json;
 
+double initial_t_tr(const Composition& composition) {
+  std::vector<theory::Temperatures> each;
+  for (const Species& species : composition.species())
+    each.push_back({species.t_tr, species.t_rot});
+  return theory::mean_of_species(composition, each).t_tr;
+}
+
 struct Answer {
   Settings settings;
   std::optional<double> density;
@@ -33,6 +40,9 @@ struct Answer {
   double share_met_before() const {
     const auto contacts = static_cast<double>(result.met_before + result.encounters);
     return static_cast<double>(result.met_before) / contacts;
+  }
+  double tau(const Sample& sample) const {
+    return sample.tau * tau_scale(initial_t_tr(composition()));
   }
   theory::Temperatures gaussian_of_all(std::size_t n) const {
     return theory::mean_of_species(composition(), gaussian[n]);
@@ -113,7 +123,7 @@ Json json_of(const Answer& answer) {
     json["time"] = Json::array();
   }
   for (const Sample& sample : answer.result.samples) {
-    json["tau"].push_back(sample.tau);
+    json["tau"].push_back(answer.tau(sample));
     if (answer.density) json["time"].push_back(sample.tau / theory_time_scale(*answer.density));
   }
   put_means(json, answer, [](const Sample& sample) -> const Means& { return sample; });
@@ -165,16 +175,17 @@ std::string course_table(const Answer& answer, const MeansOf& means_of, const Te
       text += fmt::format("{:>12.6g}  ", sample.tau / theory_time_scale(*answer.density));
     }
     text += fmt::format("{:>10.6g}  {:>21}  {:>11.6g}  {:>21}  {:>11.6g}  {:>21}  {:>21}\n",
-                        sample.tau, with_error(means.t_tr), gaussian.t_tr, with_error(means.t_rot),
-                        gaussian.t_rot, with_error(means.energy), with_error(means.collisions));
+                        answer.tau(sample), with_error(means.t_tr), gaussian.t_tr,
+                        with_error(means.t_rot), gaussian.t_rot, with_error(means.energy),
+                        with_error(means.collisions));
   }
   text += fmt::format("\n{:>10}  {:>21}  {:>21}  {:>21}\n", "tau", "excess of v^4", "excess of w^4",
                       "excess of v^2 w^2");
   for (const Sample& sample : answer.result.samples) {
     const Means& means = means_of(sample);
-    text +=
-        fmt::format("{:>10.6g}  {:>21}  {:>21}  {:>21}\n", sample.tau, with_error(means.excess_tr),
-                    with_error(means.excess_rot), with_error(means.excess_mixed));
+    text += fmt::format("{:>10.6g}  {:>21}  {:>21}  {:>21}\n", answer.tau(sample),
+                        with_error(means.excess_tr), with_error(means.excess_rot),
+                        with_error(means.excess_mixed));
   }
   return text;
 }
@@ -250,11 +261,15 @@ std::vector<std::vector<theory::Temperatures>> gaussian_of(const Composition& co
 
 }  // namespace
 
+double tau_scale(double initial_t_tr) { return initial_t_tr > 0 ? std::sqrt(initial_t_tr) : 1; }
+
 std::string boltzmann_theory_of(const Settings& settings, const std::vector<double>& taus,
                                 std::optional<double> density, bool json) {
+  std::vector<double> of_theory = taus;
+  for (double& tau : of_theory) tau /= tau_scale(initial_t_tr(settings.composition));
   const Answer answer{settings, density,
-                      boltzmann::simulate(settings, taus, available_cores().usable()),
-                      gaussian_of(settings.composition, density, taus)};
+                      boltzmann::simulate(settings, of_theory, available_cores().usable()),
+                      gaussian_of(settings.composition, density, of_theory)};
   return json ? json_text(json_of(answer)) + "\n" : table_of(answer);
 }
 

@@ -54,7 +54,7 @@ double mean_free_time_of(const runs::Explanation& e, const Composition& composit
                          std::size_t species) {
   double collisions = 0;
   for (std::size_t other = 0; other < composition.size(); ++other) {
-    const double rate = e.rates[composition.pair_index(species, other)];
+    const double rate = e.counted_rates[composition.pair_index(species, other)];
     collisions += species == other ? 2 * rate : rate;
   }
   return static_cast<double>(composition[species].count) / collisions;
@@ -187,10 +187,15 @@ std::string gravity_lines(const runs::Explanation& e) {
     if (text.empty()) {
       text = line("gravity", fmt::format("({:g})", fmt::join(e.scene.forces.gravity, ", ")));
     }
-    text += line(
-        "", fmt::format("along {}: weight N m g = {:.4g}, scale height T / (m g) = {:.4g} "
-                        "at the start",
-                        "xyz"[along.axis], along.weight, fmt::join(along.scale_heights, ", ")));
+    const char axis = "xyz"[along.axis];
+    text +=
+        line("", along.scale_heights.empty()
+                     ? fmt::format("along {}, which is periodic: thermal walls brake with N m g "
+                                   "= {:.4g} in the steady state",
+                                   axis, along.weight)
+                     : fmt::format("along {}: weight N m g = {:.4g}, scale height T / (m g) = "
+                                   "{:.4g} at the start",
+                                   axis, along.weight, fmt::join(along.scale_heights, ", ")));
   }
   return text;
 }

@@ -253,8 +253,8 @@ void add_theory_command(CLI::App& app, int& exit_code) {
 scene, if one is given; options come first. Without a scene, --epsilon and
 --k are needed.
 
-tau = (2/3) sqrt(pi) n t is the time t scaled by the density n, so that the
-cooling curve is the same for every density. c is the ratio T_tr / T_rot that
+tau = (2/3) sqrt(pi) n sqrt(T_tr(0)) t is the time t scaled by the density n
+and the initial T_tr, so that the cooling curve is the same for all. c is the ratio T_tr / T_rot that
 a gas tends to as it cools, and k_star the k at which c = 1 for every epsilon
 (smooth needles).
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string_view>
 #include <type_traits>
 
@@ -87,6 +88,8 @@ std::string energy_lines(const Report& report) {
     text += line("energy", "E = {:.6g} per needle, changed by {:.1e} of it", last.energy,
                  last.energy / first.energy - 1);
   }
+  if (report.simulation.composition().are_spheres())
+    return text + line("temperatures", "T_tr = {:.4g}", last.t_tr);
   text += line("temperatures", "T_tr = {:.4g}, T_rot = {:.4g}, T_tr/T_rot = {:.4f}", last.t_tr,
                last.t_rot, last.t_tr / last.t_rot);
   if (theory) {
@@ -96,45 +99,77 @@ std::string energy_lines(const Report& report) {
   return text;
 }
 
-// Temperatures of each species, and collisions of each two: their number, or how their rate in
-// equilibrium compares.
-std::string species_lines(const Report& report) {
-  const Simulation& simulation = report.simulation;
-  const Composition& composition = simulation.composition();
-  if (!composition.is_mixture()) return {};
-  const auto totals = simulation.species_totals();
+// The few with the largest of these numbers, in their order, where there are more than a person
+// reads.
+std::vector<std::size_t> those_shown(const std::vector<std::uint64_t>& numbers) {
+  constexpr std::size_t most = 16, few = 8;
+  std::vector<std::size_t> out(numbers.size());
+  std::iota(out.begin(), out.end(), std::size_t{0});
+  if (out.size() <= most) return out;
+  std::ranges::stable_sort(out, [&](auto a, auto b) { return numbers[a] > numbers[b]; });
+  out.resize(few);
+  std::ranges::sort(out);
+  return out;
+}
+
+// Where the rest of them is.
+std::string rest_line(std::size_t all, std::size_t shown, const char* order, const char* key) {
+  if (shown == all) return {};
+  return line("", "{} more, each with {}: run --json has all, in {}", all - shown, order, key);
+}
+
+// Temperatures of each species.
+std::string temperature_lines(const Report& report) {
+  const Composition& composition = report.simulation.composition();
+  const auto totals = report.simulation.species_totals();
   const auto theory = report.species_theory_at(report.course.last);
+  std::vector<std::uint64_t> counts;
+  for (const SpeciesTotals& each : totals) counts.push_back(each.count);
+  const std::vector<std::size_t> shown = those_shown(counts);
   std::string text;
-  for (std::size_t n = 0; n < composition.size(); ++n) {
-    text += line(n == 0 ? "species" : "", "{}: {} needles, T_tr = {:.4g}, T_rot = {:.4g}",
-                 composition[n].name, totals[n].count, totals[n].t_tr, totals[n].t_rot);
+  for (const std::size_t n : shown) {
+    const bool turns = composition[n].turns();
+    text += line(text.empty() ? "species" : "", "{}: {} {}, T_tr = {:.4g}{}", composition[n].name,
+                 counts[n], turns ? "needles" : "spheres", totals[n].t_tr,
+                 turns ? fmt::format(", T_rot = {:.4g}", totals[n].t_rot) : "");
     if (!theory) continue;
     text.pop_back();
     text += fmt::format(", theory {:.4g}, {:.4g}\n", (*theory)[n].t_tr, (*theory)[n].t_rot);
   }
-  const auto collisions = simulation.collisions_by_pair();
+  return text + rest_line(counts.size(), shown.size(), "as few or fewer", "species");
+}
+
+// Collisions of each two species: their number, or how their rate in equilibrium compares.
+std::string pair_lines(const Report& report) {
+  const Composition& composition = report.simulation.composition();
+  const auto collisions = report.simulation.collisions_by_pair();
   const std::vector<double> exact = report.pair_rates_exact();
   const double time = report.course.last.time;
-  const char* title = "pairs";
+  std::vector<std::string> names;  // in the order of the indices of pairs
   for (std::size_t a = 0; a < composition.size(); ++a) {
     for (std::size_t b = a; b < composition.size(); ++b) {
-      const std::size_t pair = composition.pair_index(a, b);
-      text += line(title, "{}: {} collisions", pair_name(composition, a, b), collisions[pair]);
-      title = "";
-      if (exact.empty() || !(exact[pair] * time > 0)) continue;
-      text.pop_back();
-      text += fmt::format(", ratio to the exact rate {:.4f}\n",
-                          static_cast<double>(collisions[pair]) / (exact[pair] * time));
+      names.push_back(pair_name(composition, a, b));
     }
   }
-  return text;
+  const std::vector<std::size_t> shown = those_shown(collisions);
+  std::string text;
+  for (const std::size_t pair : shown) {
+    text += line(text.empty() ? "pairs" : "", "{}: {} collisions", names[pair], collisions[pair]);
+    if (exact.empty() || !(exact[pair] * time > 0)) continue;
+    text.pop_back();
+    text += fmt::format(", ratio to the exact rate {:.4f}\n",
+                        static_cast<double>(collisions[pair]) / (exact[pair] * time));
+  }
+  return text + rest_line(names.size(), shown.size(), "as few or fewer", "collisions_by_pair");
 }
 
 std::string rod_line(const Report& report) {
   if (!report.simulation.composition().has_width() || !(report.course.last.time > 0)) return {};
   const runs::RodTotals rods = runs::rod_totals(report.scene, report.simulation);
-  return line("rods", "packing fraction {:.5g}, pressure {:.5g}", rods.packing_fraction,
-              rods.pressure);
+  const std::string pressure =
+      std::isfinite(rods.pressure) ? fmt::format("{:.5g}, ", rods.pressure) : "";
+  return line("rods", "packing fraction {:.5g}, pressure {}{}", rods.packing_fraction, pressure,
+              rods.pressure_meaning);
 }
 
 std::string wall_lines(const Report& report) {
@@ -249,7 +284,8 @@ std::string summary_of(const Report& report) {
     text += line("start", "{}", placement);
   text += line("end", "{}: time {:.6g}", reason(report.course), last.time);
   if (report.course.initial.energy > 0) text += energy_lines(report);
-  text += species_lines(report);
+  if (report.simulation.composition().is_mixture())
+    text += temperature_lines(report) + pair_lines(report);
   if (runs::starts_in_equilibrium(scene) && last.time > 0) text += rate_line(report);
   if (!runs::starts_in_equilibrium(scene) && last.collisions > 0) text += curve_lines(report);
   text += line("collisions", "{}, {:.4g} per needle", last.collisions,

@@ -62,6 +62,9 @@ struct Question {
   theory::Temperatures initial;
   std::optional<double> density;  ///< [L^-3]
   std::vector<double> taus;
+
+  double scale() const { return tau_scale(initial.t_tr); }
+  double tau_at(double time) const { return theory_time_scale(*density) * scale() * time; }
 };
 
 struct Predictions : Question {
@@ -72,7 +75,7 @@ struct Predictions : Question {
 
   std::optional<theory::Transport> transport;  ///< of smooth elastic needles of a known density
 
-  double time(std::size_t i) const { return taus[i] / theory_time_scale(*density); }
+  double time(std::size_t i) const { return taus[i] / (theory_time_scale(*density) * scale()); }
 };
 
 double number_of(const NumberOption& option, std::string_view text) {
@@ -133,9 +136,7 @@ Question question_of(const TheoryArguments& arguments,
     t_tr = scene.initial.t_tr;
     t_rot = scene.initial.t_rot;
     question.density = runs::theory_density_of(loaded->scene);
-    for (const double time : usual_times(scene)) {
-      usual.push_back(theory_time_scale(*question.density) * time);
-    }
+    usual = usual_times(scene);
   } else if (!arguments.overrides.empty()) {
     throw std::invalid_argument(
         fmt::format("--set {}: expected a scene that it changes", arguments.overrides[0]));
@@ -152,11 +153,15 @@ Question question_of(const TheoryArguments& arguments,
     const double value = number_of(time_option, time);
     if (!question.density) {
       throw std::invalid_argument(fmt::format(
-          "--time {}: expected --density N beside it, or a scene: tau = (2/3) sqrt(pi) n t", time));
+          "--time {}: expected --density N beside it, or a scene: tau = (2/3) sqrt(pi) n t, times "
+          "the root of the initial T_tr",
+          time));
     }
-    question.taus.push_back(theory_time_scale(*question.density) * value);
+    question.taus.push_back(question.tau_at(value));
   }
-  if (question.taus.empty()) question.taus = usual;
+  if (question.taus.empty()) {
+    for (const double time : usual) question.taus.push_back(question.tau_at(time));
+  }
   return question;
 }
 
@@ -170,8 +175,10 @@ Predictions predictions_of(const TheoryArguments& arguments,
   if (is_elastic && result.density && temperature > 0) {
     result.transport = theory::uncorrelated_transport(*result.density, temperature, result.gas.k);
   }
-  result.curve = theory::cooling_curve(result.gas, result.initial, result.taus);
-  result.collisions = theory::collisions_per_needle(result.gas, result.initial, result.taus);
+  std::vector<double> scaled = result.taus;
+  for (double& tau : scaled) tau /= result.scale();
+  result.curve = theory::cooling_curve(result.gas, result.initial, scaled);
+  result.collisions = theory::collisions_per_needle(result.gas, result.initial, scaled);
   return result;
 }
 
@@ -299,17 +306,17 @@ Simulated mixture_of(const TheoryArguments& arguments, const runs::LoadedScene& 
   const double volume = runs::volume_of(loaded.scene);
   const auto count = static_cast<double>(composition.count());
   const auto initial = runs::temperatures_by_species(loaded);
+  const double t_tr = theory::mean_of_species(composition, initial).t_tr;
   Simulated out{
       .composition = at_temperatures(composition, initial), .density = count / volume, .taus = {}};
   for (const double time : times_of_mixture(arguments, loaded)) {
-    out.taus.push_back(theory_time_scale(*out.density) * time);
+    out.taus.push_back(theory_time_scale(*out.density) * tau_scale(t_tr) * time);
   }
   double collisions = 0;
   for (const double each : theory::mixture_rates(composition, volume, initial).collisions) {
     collisions += each;
   }
-  out.rate_of_scene =
-      2 * collisions / count / std::sqrt(theory::mean_of_species(composition, initial).t_tr);
+  out.rate_of_scene = 2 * collisions / count / std::sqrt(t_tr);
   return out;
 }
 

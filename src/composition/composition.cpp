@@ -76,6 +76,13 @@ bool Composition::are_spheres() const {
   return out;
 }
 
+double Composition::turning_share() const {
+  std::uint64_t turning = 0;
+  for (const Species& each : species_) turning += each.turns() ? each.count : 0;
+  const std::uint64_t all = count();
+  return all > 0 ? static_cast<double>(turning) / static_cast<double>(all) : 1;
+}
+
 double Composition::packing_fraction(double volume) const {
   double out = 0;
   for (const Species& each : species_) {

@@ -11,26 +11,34 @@ namespace needlework {
 
 namespace {
 
+// Along axes with walls, where there is a potential.
+Vec3d weight(const Gas& gas) { return gas.gravity - gas.pull; }
+
 // Where gravity has no component along an axis, the place there does not count.
 Vec3d lowest(const Gas& gas) {
-  const auto edge = [&](double pull, int axis) { return pull > 0 ? gas.box[axis] : 0; };
-  return {edge(gas.gravity.x, 0), edge(gas.gravity.y, 1), edge(gas.gravity.z, 2)};
+  const Vec3d g = weight(gas);
+  const auto edge = [&](double along, int axis) { return along > 0 ? gas.box[axis] : 0; };
+  return {edge(g.x, 0), edge(g.y, 1), edge(g.z, 2)};
 }
 
 Needle needle_of(const Gas& gas, const Record& record) {
   return Needle(static_cast<std::size_t>(&record - gas.records.data()));
 }
 
-// SumsOfSquares::height of a species.
-double height_of(const Gas& gas, Time now, std::size_t species, int threads) {
-  if (!gas.falls) return 0;
-  const auto [height] = exact_sums(gas.records, threads, [&](const Record& a) {
-    if (a.species != species) return std::array{0.0};
-    const Vec3d centre =
-        gas.slides ? gas.present(needle_of(gas, a), now).r : gas.motion_from(a, now).centre();
-    return std::array{dot(gas.gravity, lowest(gas) - centre)};
+// SumsOfSquares::height and pulled of a species.
+std::array<double, 2> falls_of(const Gas& gas, Time now, std::size_t species, int threads) {
+  if (!gas.falls) return {};
+  const Vec3d g = weight(gas), low = lowest(gas);
+  const auto [height, pulled] = exact_sums(gas.records, threads, [&](const Record& a) {
+    if (a.species != species) return std::array{0.0, 0.0};
+    const Needle i = needle_of(gas, a);
+    const Vec3d centre = gas.slides ? gas.present(i, now).r : gas.motion_from(a, now).centre();
+    const Shift& boxes = gas.images[i];
+    const Vec3d way =
+        centre + Vec3d{boxes[0] * gas.box[0], boxes[1] * gas.box[1], boxes[2] * gas.box[2]};
+    return std::array{dot(g, low - centre), dot(gas.pull, way)};
   });
-  return height;
+  return {height, pulled};
 }
 
 struct Velocities {
@@ -70,7 +78,8 @@ std::vector<SumsOfSquares> sums_of_squares(const Gas& gas, Time now, int threads
         return std::array{dot(v, v), dot(w, w)};
       });
     });
-    out[species] = {v2, w2, height_of(gas, now, species, threads)};
+    const auto [height, pulled] = falls_of(gas, now, species, threads);
+    out[species] = {v2, w2, height, pulled};
   }
   return out;
 }
@@ -93,7 +102,7 @@ std::vector<SpeciesTotals> species_totals(const Gas& gas, const std::vector<Sums
 
 namespace {
 
-// Means over all needles.
+// Means over all needles; T_rot of those that turn.
 void set_temperatures(const Gas& gas, const std::vector<SumsOfSquares>& sums, Totals& out) {
   if (gas.size() == 0) return;
   out.t_tr = out.t_rot = 0;
@@ -102,7 +111,9 @@ void set_temperatures(const Gas& gas, const std::vector<SumsOfSquares>& sums, To
     out.t_tr += share * of.t_tr;
     out.t_rot += share * of.t_rot;
   }
-  out.energy = 1.5 * out.t_tr + out.t_rot;
+  const double turning = gas.composition.turning_share();
+  if (turning > 0) out.t_rot /= turning;
+  out.energy = 1.5 * out.t_tr + turning * out.t_rot;
 }
 
 double potential_of(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
@@ -114,6 +125,12 @@ double potential_of(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
 }
 
 }  // namespace
+
+double translational_temperature(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
+  Totals totals;
+  set_temperatures(gas, sums, totals);
+  return totals.t_tr;
+}
 
 double energy_of_motion(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
   Totals totals;
@@ -127,7 +144,15 @@ double energy_of(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
 }
 
 double energy_of_low_edges(const Gas& gas) {
-  return total_mass(gas.composition) * dot(gas.gravity, lowest(gas));
+  return total_mass(gas.composition) * dot(weight(gas), lowest(gas));
+}
+
+double work_of_pull(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
+  double out = 0;
+  for (std::size_t index = 0; index < sums.size(); ++index) {
+    out += gas.composition[index].mass * sums[index].pulled;
+  }
+  return out;
 }
 
 Totals totals_of(const Gas& gas, Time now, int threads) {
@@ -143,7 +168,8 @@ Totals totals_of(const Gas& gas, Time now, int threads) {
         return std::array{dot(v, v), dot(w, w), v.x, v.y, v.z};
       });
     });
-    sums.push_back({v2, w2, height_of(gas, now, species, threads)});
+    const auto [height, pulled] = falls_of(gas, now, species, threads);
+    sums.push_back({v2, w2, height, pulled});
     const double mass = gas.composition[species].mass;
     for (const auto& [axis, sum] : {std::pair(0, x), std::pair(1, y), std::pair(2, z)}) {
       out.momentum[axis] += mass * sum;

@@ -13,21 +13,26 @@ namespace needlework {
 struct SumsOfSquares {
   double v2 = 0, w2 = 0;  ///< [L^2 / time^2], [1 / time^2]
   double height = 0;      ///< above where gravity points to, times gravity [L^2 / time^2]
+  double pulled = 0;      ///< way along periodic axes, images included, times gravity there
 };
 
 /// Of all needles of each species. The threads share the work; see exact_sums.h.
 std::vector<SumsOfSquares> sums_of_squares(const Gas& gas, Time now, int threads);
 
 std::vector<SpeciesTotals> species_totals(const Gas& gas, const std::vector<SumsOfSquares>& sums);
-/// The energy of all needles; where there is gravity, counted from the walls to which it points, so
-/// that it is positive. [energy]
+/// The energy of all needles; where there is gravity along axes with walls, counted from those to
+/// which it points, so that it is positive. [energy]
 double energy_of(const Gas& gas, const std::vector<SumsOfSquares>& sums);
 /// Without that in gravity. [energy]
 double energy_of_motion(const Gas& gas, const std::vector<SumsOfSquares>& sums);
-/// What that is more than where heights count from the low edges of the box. [energy]
+/// The work that gravity along periodic axes has done since needles were in the box. [energy]
+double work_of_pull(const Gas& gas, const std::vector<SumsOfSquares>& sums);
+/// What energy_of() is more than where heights count from the low edges of the box. [energy]
 double energy_of_low_edges(const Gas& gas);
 /// Temperatures, energy and momentum; times and counts are left as they are.
 Totals totals_of(const Gas& gas, Time now, int threads);
+/// Of all needles. [energy]
+double translational_temperature(const Gas& gas, const std::vector<SumsOfSquares>& sums);
 /// By kinetic theory, for what these sums say of temperatures. [time]
 double mean_free_time_of(const Gas& gas, const std::vector<SumsOfSquares>& sums);
 /// What tells whether searches can follow needles with these sums of squares; `moves` is whether

@@ -157,6 +157,9 @@ void set_surroundings(Gas& gas, const Scene& scene) {
   for (const Scene::WallSide& side : scene.wall_sides()) gas.walled[side.axis] = true;
   gas.gravity = vector_of(scene.forces.gravity);
   gas.falls = !(gas.gravity == Vec3d{});
+  const auto along_periodic = [&](double g, std::size_t axis) { return gas.walled[axis] ? 0 : g; };
+  gas.pull = {along_periodic(gas.gravity.x, 0), along_periodic(gas.gravity.y, 1),
+              along_periodic(gas.gravity.z, 2)};
 }
 
 Gas make_gas(const Scene& scene, const State& initial) {

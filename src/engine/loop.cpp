@@ -29,6 +29,11 @@ Limits::Limits(const Run& run, const Scene::Until& until)
       throw InputError(std::string("until.") + name + " = nan: expected a number");
     }
   }
+  if (until.energy_ratio && !(run.gas.pull == Vec3d{})) {
+    throw InputError(
+        "until.energy_ratio: expected another end under gravity along a periodic axis, which does "
+        "work all the time");
+  }
   if (until.wall_s) {
     const auto now = std::chrono::steady_clock::now();
     const std::chrono::duration<double> left(*until.wall_s);

@@ -148,15 +148,17 @@ Run::Run(const Scene& scene, Gas initial) : Run(scene) {
   }
   open_window();
   initial_energy = present_energy();
+  work_at_start = work_at_opening;
   // Done before search and calendar allocate their memory, which would add to that of sorting.
   if (sorted) reorder(gas, order_in_space(gas, now));
 }
 
-void Run::open_window() {
-  const std::vector<SumsOfSquares> sums = sums_of_squares(gas, now, team.threads());
+void Run::open_window(const std::vector<SumsOfSquares>& sums) {
   expect_energy();
+  work_at_opening = work_of_pull(gas, sums);
   energy_shares.settle(energy, tally);
   energy.open(energy_of(gas, sums), energy_of_motion(gas, sums), tally.energy);
+  temperature_integral.note(gas.clock, now, translational_temperature(gas, sums));
   windows.open(mean_free_time_of(gas, sums), usual_time_of_events(sums), gas.clock, now);
   set_contact_time();
 }
@@ -178,7 +180,6 @@ double Run::usual_time_of_events(const std::vector<SumsOfSquares>& sums) const {
 }
 
 void Run::pass_window() {
-  const double by_account = present_energy();
   // Walls and gravity make densities that kinetic theory does not know. The many small bounces of a
   // pair that slides are not counted: they would shorten the mean free time and with it t_c, which
   // would make them smaller still, without end. Nor are crowded ones, where needles slide.
@@ -186,11 +187,17 @@ void Run::pass_window() {
     windows.measure(tally.collisions - tally.tc_collisions - tally.sliding.crowded, gas.size(),
                     gas.clock.since_start(now));
   }
-  open_window();
-  energy.note_drift_from(by_account);
+  open_window_and_note_drift();
   std::uint64_t events = tally.collisions;
   for (const SourceTally& source : tally.by_source) events += source.events;
   windows.count(events);
+}
+
+void Run::open_window_and_note_drift() {
+  const std::vector<SumsOfSquares> sums = sums_now();
+  const double by_account = energy_by_account(sums);
+  open_window(sums);
+  energy.note_drift_from(by_account);
 }
 
 void Run::set_contact_time() {
@@ -198,7 +205,9 @@ void Run::set_contact_time() {
 }
 
 double Run::energy_drift() const {
-  return energy.drift(energy_of(gas, sums_of_squares(gas, now, team.threads())), tally.energy);
+  const std::vector<SumsOfSquares> sums = sums_now();
+  return energy.drift(energy_of(gas, sums) - (work_of_pull(gas, sums) - work_at_opening),
+                      tally.energy);
 }
 
 Totals Run::totals() const {
@@ -215,6 +224,9 @@ EnergyBudget Run::energy_budget() const {
   out.pairs = energy_shares.pairs(energy, tally) / needles;
   out.velocities_set = energy_shares.velocities_set() / needles;
   if (kicks) out.kicks = energy_shares.kicks() / needles;
+  if (!(gas.pull == Vec3d{})) {
+    out.gravity = (work_of_pull(gas, sums_now()) - work_at_start) / needles;
+  }
   for (std::size_t n = 0; n < sources.size(); ++n) {
     if (sources[n]->kind() == Happening::thermostat) {
       out.thermostat = energy_shares.source(n, energy, tally) / needles;
@@ -295,7 +307,9 @@ ReplacedRecords Run::replace_velocities(const std::function<Vec3d(Needle)>& velo
 
 ReplacedRecords Run::set_velocities(const std::function<Vec3d(Needle)>& velocity,
                                     const std::function<Vec3d(Needle)>& angular_velocity) {
-  const double before = present_energy();
+  const std::vector<SumsOfSquares> sums = sums_now();
+  const double before = energy_by_account(sums);
+  temperature_integral.note(gas.clock, now, translational_temperature(gas, sums));
   ReplacedRecords replaced = replace_velocities(velocity, angular_velocity);
   energy_shares.velocities_set(before, energy.at_opening());
   return replaced;
@@ -320,9 +334,7 @@ std::vector<Needle> Run::sort_storage() {
 ReplacedRecords Run::kick() {
   require_images(gas, now);
   // The energy before, to the last digit.
-  const double by_account = present_energy();
-  open_window();
-  energy.note_drift_from(by_account);
+  open_window_and_note_drift();
   const double before = energy.at_opening();
 
   const std::uint64_t number = ++kicks_done;

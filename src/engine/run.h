@@ -18,6 +18,7 @@
 #include "src/engine/replaced_records.h"
 #include "src/engine/tally.h"
 #include "src/engine/team_at_hand.h"
+#include "src/engine/temperature_integral.h"
 #include "src/engine/windows.h"
 #include "src/physics/collisionless.h"
 #include "src/physics/contact_time.h"
@@ -47,13 +48,14 @@ class Run {
   Totals totals() const;
   /// See Simulation::energy_budget().
   EnergyBudget energy_budget() const;
-  /// Energy of all needles, updated at each collision.
+  /// Energy of all needles, updated at each collision; without the work of gravity along periodic
+  /// axes in this window.
   double present_energy() const { return energy.now(tally.energy); }
   /// See Simulation::energy_drift().
   double energy_drift() const;
 
   /// Opens a window for the present state.
-  void open_window();
+  void open_window() { open_window(sums_now()); }
   /// The same at the end of a window, of which the drift of the energy is noted.
   void pass_window();
   /// Whether no two needles can ever collide and nothing else can happen either, so that time may
@@ -98,6 +100,9 @@ class Run {
   Windows windows;
   EnergyAccount energy;
   EnergyShares energy_shares;
+  /// By gravity along periodic axes, which events do not count; work_of_pull().
+  double work_at_start = 0, work_at_opening = 0;
+  TemperatureIntegral temperature_integral;
   Tally tally;
   Accuracy accuracy;
   Effects effects;  ///< effects that the scene requires
@@ -116,9 +121,18 @@ class Run {
   std::atomic<bool> interrupted = false;
 
  private:
+  std::vector<SumsOfSquares> sums_now() const { return sums_of_squares(gas, now, team.threads()); }
+  void open_window(const std::vector<SumsOfSquares>& sums);
+  /// The same after a time in which events and gravity have changed the energy, of which the drift
+  /// is noted.
+  void open_window_and_note_drift();
   /// Whoever does it; see set_velocities().
   ReplacedRecords replace_velocities(const std::function<Vec3d(Needle)>& velocity,
                                      const std::function<Vec3d(Needle)>& angular_velocity);
+  /// Energy of all needles by the account, where these are their sums now.
+  double energy_by_account(const std::vector<SumsOfSquares>& sums) const {
+    return present_energy() + (work_of_pull(gas, sums) - work_at_opening);
+  }
   void count_strikes();
   /// Takes the parameters of the scene; without needles.
   explicit Run(const Scene& scene);

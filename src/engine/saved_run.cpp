@@ -218,8 +218,9 @@ void Run::require_consistent() const {
   StopRequest::check();
   present.has_cooled = true;
   require(out_of_range(present).empty());
-  const double sum = energy_of(gas, sums_of_squares(gas, now, team.threads()));
-  require(std::abs(sum - present_energy()) <= 1e-6 * energy.at_opening());
+  const std::vector<SumsOfSquares> sums = sums_now();
+  require(std::isfinite(work_at_start) && std::isfinite(work_at_opening));
+  require(std::abs(energy_of(gas, sums) - energy_by_account(sums)) <= 1e-6 * energy.at_opening());
 }
 
 // Needles are saved in order of id, whatever their order in storage.
@@ -266,6 +267,9 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
     find_next_kick();
   }
   energy_shares.transfer(archive, sources.size(), objects);
+  if (!(gas.pull == Vec3d{})) archive(work_at_start, work_at_opening);
+  temperature_integral.transfer(archive);
+  archive.require(temperature_integral.is_sound());
   if (archive.reads()) require_consistent();
 }
 

@@ -404,6 +404,14 @@ double Simulation::virial() const {
   return virial.empty() ? 0 : virial.front().value();
 }
 
+double Simulation::t_tr_integral() const {
+  const kernels::DefaultArithmetic arithmetic;
+  const Run& run = implementation_->run;
+  const auto sums = sums_of_squares(run.gas, run.now, run.team.threads());
+  return run.temperature_integral.at(run.gas.clock, run.now,
+                                     translational_temperature(run.gas, sums));
+}
+
 std::vector<WallTotals> Simulation::wall_totals() const {
   const kernels::DefaultArithmetic arithmetic;
   const Run& run = implementation_->run;

@@ -25,7 +25,8 @@ std::vector<Description> totals(const std::string& group, const std::string& sha
   return {
       {group + "/t_tr", "Translational temperature: two thirds of the mean energy of translation",
        energy, shape},
-      {group + "/t_rot", "Rotational temperature: the mean energy of rotation", energy, shape},
+      {group + "/t_rot", "Rotational temperature: the mean energy of rotation of bodies that turn",
+       energy, shape},
       {group + "/energy", "Kinetic energy per needle", energy, shape},
       {group + "/momentum", "Total momentum of all needles", momentum, of_vector},
       {group + "/collisions", "Number of collisions since the start of the run", none, shape},

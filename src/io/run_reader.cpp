@@ -44,7 +44,8 @@ void read_series(const Source& source, const std::string& name, std::vector<Tota
 static void transfer(Archive& archive, RecordedRun& run) {
   auto& [scene, version, needles, series, walls, pressure, energy] = run;
   archive(scene, version, needles, series, walls, pressure);
-  archive(energy.pairs, energy.walls, energy.thermostat, energy.kicks, energy.velocities_set);
+  archive(energy.pairs, energy.walls, energy.thermostat, energy.kicks, energy.gravity,
+          energy.velocities_set);
 }
 
 namespace {
@@ -100,6 +101,7 @@ void read_energy_budget(const Source& source, RecordedRun& run) {
   run.energy.pairs = last("pairs").value_or(0);
   run.energy.thermostat = last("thermostat");
   run.energy.kicks = last("kicks");
+  run.energy.gravity = last("gravity");
   run.energy.velocities_set = last("velocities_set").value_or(0);
   if (run.walls.empty()) return;
   run.energy.walls =

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "src/observe/contact_share.h"
+#include "src/scene/confinement.h"
 
 namespace needlework::observe {
 namespace {
@@ -87,7 +88,8 @@ class BudgetOfEnergy : public Observable {
   explicit BudgetOfEnergy(const Scene& scene)
       : walls_(scene.wall_sides().size()),
         has_thermostat_(scene.driving.andersen),
-        has_kicks_(scene.driving.kicks) {}
+        has_kicks_(scene.driving.kicks),
+        is_pulled_(has_gravity_along_periodic(scene)) {}
 
   std::vector<SeriesField> fields() const override {
     const std::string since = " since the start of the run; negative: taken out";
@@ -112,6 +114,12 @@ class BudgetOfEnergy : public Observable {
       out.push_back(
           {"kicks", "Energy per needle that kicks have put in" + since, unit::energy, {}});
     }
+    if (is_pulled_) {
+      out.push_back({"gravity",
+                     "Energy per needle that gravity along periodic axes has put in" + since,
+                     unit::energy,
+                     {}});
+    }
     out.push_back({"velocities_set",
                    "Energy per needle that velocities set by a caller have put in" + since,
                    unit::energy,
@@ -133,7 +141,7 @@ class BudgetOfEnergy : public Observable {
 
  private:
   std::size_t walls_;
-  bool has_thermostat_, has_kicks_;
+  bool has_thermostat_, has_kicks_, is_pulled_;
 };
 
 class ContactSums : public Observable {

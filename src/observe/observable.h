@@ -94,6 +94,7 @@ struct SpeciesSums {
   std::vector<WallTotals> walls = {};
   EnergyBudget energy = {};
   double virial = 0;              ///< of rods, Simulation::virial()
+  double t_tr_integral = 0;       ///< of rods, Simulation::t_tr_integral()
   SlidingContacts contacts = {};  ///< of needles that slide on each other
 };
 

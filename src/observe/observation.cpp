@@ -66,7 +66,7 @@ Observation::Observation(const Scene& scene, ObservablePointer cooling, SpeciesB
   }
   if (gas_.composition.has_width()) {
     members_.push_back(
-        {"rods", "Packing fraction, virial and pressure of rods", make_rod_sums(gas_)});
+        {"rods", "Packing fraction, virial and pressure of rods", make_rod_sums(scene, gas_)});
   }
   if (scene.collisions.sliding) {
     members_.push_back(
@@ -119,6 +119,7 @@ std::span<const double> Observation::sample(const State& state, const Totals& to
                            species.walls,
                            species.energy,
                            species.virial,
+                           species.t_tr_integral,
                            species.contacts};
   const Snapshot now(gas_, state, totals, is_mixture ? species : of_all);
   if (is_mixture) parts_.take(now);

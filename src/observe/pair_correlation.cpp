@@ -1,32 +1,28 @@
 // Correlations of pairs at the distance r of their centres, taken between nearest images,
 // of which there are none along axes with walls:
 //
-//   g   pairs with r in a bin, divided by N (N - 1) / 2 times the bin's share of the box volume;
-//       1 for independent positions
+//   g   pairs with r in a bin, divided by N (N - 1) / 2 times the share of pairs of bodies that
+//   know
+//       of nothing but the walls (ideal_pairs.h): in a periodic box the bin's share of its volume
 //   p2  mean of P2(u_i . u_j) = (3 (u_i . u_j)^2 - 1) / 2 over these pairs; 0 for independent
 //       directors, 1 for parallel ones, NaN where there are no pairs
 //
 // With several species, of the pairs of each two of them: N_a N_b pairs of needles of a and b.
 //
-// r goes up to 3 lengths of the longest needles, or to half the shortest edge of the box if that is
-// less. Pairs come from a list of cells at least that wide, in an order that follows from the state
-// alone.
+// r goes up to 3 lengths of the longest needles, or to half the shortest periodic edge of the box
+// if that is less. Pairs come from a list of cells at least that wide, in an order that follows
+// from the state alone.
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "src/observe/ideal_pairs.h"
 #include "src/observe/registry.h"
 
 namespace needlework::observe {
 namespace {
 
 constexpr std::size_t bins = 60;
-
-double largest_distance(const GasSetting& gas) {
-  const double half_edge = *std::min_element(gas.box.begin(), gas.box.end()) / 2;
-  return std::min(3 * gas.length, half_edge);
-}
 
 struct Needle {
   Vector position, director;
@@ -36,15 +32,22 @@ using Cell = std::vector<Needle>;
 
 class PairCorrelation : public Observable {
  public:
-  explicit PairCorrelation(const GasSetting& gas) : gas_(gas), reach_(largest_distance(gas)) {
+  explicit PairCorrelation(const GasSetting& gas) : gas_(gas) {
     for (const Slabs& slabs : gas.wall_slabs) is_periodic_[slabs.axis] = false;
+    const IdealPairs ideal(gas);
+    reach_ = std::min(3 * gas.length, ideal.reach());
+    for (std::size_t n = 0; n <= bins; ++n) borders_.push_back(reach_ * double(n) / bins);
+    for (std::size_t a = 0; a < gas.composition.size(); ++a) {
+      for (std::size_t b = a; b < gas.composition.size(); ++b) {
+        const std::vector<double> shares = ideal.shares(a, b, borders_);
+        ideal_.insert(ideal_.end(), shares.begin(), shares.end());
+      }
+    }
   }
 
   std::vector<SeriesField> fields() const override {
-    std::vector<double> borders;
-    for (std::size_t n = 0; n <= bins; ++n) borders.push_back(reach_ * double(n) / bins);
     return {
-        {"g", "Number of pairs by distance, divided by that of independent positions", unit::none,
+        {"g", "Number of pairs by distance, divided by that of an ideal gas", unit::none,
          by_pair(gas_.composition, {{"distance bins", bins}})},
         {"p2", "Mean of (3 cos^2 - 1) / 2 of the angle between the needles of these pairs",
          unit::none, by_pair(gas_.composition, {{"distance bins", bins}})},
@@ -53,7 +56,7 @@ class PairCorrelation : public Observable {
          unit::length,
          {{"distance bins + 1", bins + 1}},
          SeriesField::Kind::constant,
-         borders},
+         borders_},
     };
   }
 
@@ -75,10 +78,8 @@ class PairCorrelation : public Observable {
  private:
   void put_g(std::size_t pair, double all_pairs, Row& row) const {
     for (std::size_t n = 0; n < bins; ++n) {
-      const double low = double(n) / bins, high = double(n + 1) / bins;
-      const double shell = 4 * std::numbers::pi / 3 * reach_ * reach_ * reach_ *
-                           (high * high * high - low * low * low);
-      row.put(pairs_[pair * bins + n] / (all_pairs * (shell / gas_.volume())));
+      const std::size_t place = pair * bins + n;
+      row.put(pairs_[place] / (all_pairs * ideal_[place]));
     }
   }
 
@@ -107,9 +108,9 @@ class PairCorrelation : public Observable {
     std::array<int, 3> extent{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       extent[axis] = static_cast<int>(std::min(gas_.box[axis] / reach_, 100.0));
+      // With two cells along an axis, one would be on both sides of the other.
+      if (extent[axis] < 3) extent[axis] = 1;
     }
-    // With fewer than three cells along an axis, one cell would be on both sides of another.
-    if (*std::min_element(extent.begin(), extent.end()) < 3) extent = {1, 1, 1};
     const Grid grid(gas_.box, extent);
     std::vector<Cell> cells(grid.size());
     for (std::size_t i = 0; i < state.size(); ++i) {
@@ -138,13 +139,18 @@ class PairCorrelation : public Observable {
     };
     const Cell& here = at(0, 0, 0);
     for (int neighbour = 14; neighbour < 27; ++neighbour) {  // 13 is the cell itself
-      for (const Needle& other : at(neighbour / 9 - 1, neighbour / 3 % 3 - 1, neighbour % 3 - 1))
+      const std::array<int, 3> step{neighbour / 9 - 1, neighbour / 3 % 3 - 1, neighbour % 3 - 1};
+      const auto leaves = [&](std::size_t axis) { return extent[axis] == 1 && step[axis] != 0; };
+      if (leaves(0) || leaves(1) || leaves(2)) continue;
+      for (const Needle& other : at(step[0], step[1], step[2]))
         for (const Needle& one : here) add(one, other);
     }
   }
 
   GasSetting gas_;
-  double reach_;
+  double reach_ = 0;
+  std::vector<double> borders_;
+  std::vector<double> ideal_;  ///< share of all pairs, by pair of species, then bin
   std::array<bool, 3> is_periodic_{true, true, true};
   std::vector<double> pairs_, p2_;  ///< by pair of species, then bin
 };

@@ -5,7 +5,7 @@
 
 namespace needlework::observe {
 
-/// Packing fraction, virial and pressure by collisions.
-ObservablePointer make_rod_sums(const GasSetting& gas);
+/// Packing fraction, virial and pressure.
+ObservablePointer make_rod_sums(const Scene& scene, const GasSetting& gas);
 
 }  // namespace needlework::observe

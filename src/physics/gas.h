@@ -30,6 +30,7 @@ struct Gas {
   std::array<bool, 3> walled{};  ///< axes with a wall: they have no periodic images
   Vec3d gravity{};               ///< acceleration of all needles [L / time^2]
   bool falls = false;            ///< gravity is not 0
+  Vec3d pull{};                  ///< gravity along periodic axes, where it has no potential
   Columns columns;               ///< what effects keep for each needle
   Composition composition;       ///< indexed by Record::species
   std::vector<Body> bodies = {body_of(Species{})};  ///< of the same species

@@ -42,6 +42,9 @@ double mean_free_time(const ThermalGas& gas) {
 double mean_free_time(const Composition& composition, double volume,
                       std::span<const SpeciesTemperatures> temperatures) {
   constexpr double root_pi_eighths = 0.6266570686577501;
+  // Thin needles count as partners of themselves, so that equal ones are as often hit as those of
+  // the function above.
+  const double self = composition.has_width() ? 1 : 0;
   double sum = 0, count = 0;
   for (std::size_t a = 0; a < composition.size(); ++a) {
     const Species& first = composition[a];
@@ -49,7 +52,7 @@ double mean_free_time(const Composition& composition, double volume,
     count += count_a;
     for (std::size_t b = 0; b < composition.size(); ++b) {
       const Species& second = composition[b];
-      const double count_b = static_cast<double>(second.count) - (a == b ? 1 : 0);
+      const double count_b = static_cast<double>(second.count) - (a == b ? self : 0);
       if (!(count_a > 0 && count_b > 0)) continue;
       const SpeciesTemperatures &t_a = temperatures[a], &t_b = temperatures[b];
       const double flight = t_a.t_tr / first.mass + t_b.t_tr / second.mass;

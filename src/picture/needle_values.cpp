@@ -242,7 +242,7 @@ NeedleValues values_of(const std::string& quantity, const State& state, bool dar
     result.range = {0, last == result.values.end() ? 1 : std::max(*last, 1.0)};
   } else if (quantity == "orientation") {
     result.values = tilts(state);
-    result.label = "angle to the mean axis of all needles [degrees]";
+    result.label = "angle to the mean axis / degrees";
     result.range = {0, 90};
   } else if (quantity == "none") {
     result.values.assign(state.size(), 1.0);

@@ -334,6 +334,7 @@ py::dict Run::rod_totals() {
   out["packing_fraction"] = rods.packing_fraction;
   out["virial"] = rods.virial;
   out["pressure"] = rods.pressure;
+  out["pressure_meaning"] = rods.pressure_meaning;
   return out;
 }
 

@@ -1,8 +1,8 @@
 // Estimates of what a run will need, made before it begins.
 #pragma once
 
+#include "needlework/initial_state.h"
 #include "needlework/scene.h"
-#include "src/engine/initial_state.h"
 
 namespace needlework::runs {
 

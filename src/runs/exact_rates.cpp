@@ -74,6 +74,16 @@ theory::Temperatures temperatures_of(const Scene& scene) {
   return {t, t};
 }
 
+// Those of each two species at the start, were there so many needles of each.
+std::vector<double> initial_rates_of(const LoadedScene& loaded, const Composition& counts) {
+  const Scene& scene = loaded.scene;
+  const auto start = temperatures_by_species(loaded);
+  const std::vector<double> open =
+      theory::mixture_rates(counts, volume_of(scene), start).collisions;
+  std::vector<double> rates = open;
+  return !loaded.initial && put_between_walls(scene, start, rates) ? rates : open;
+}
+
 bool has_exact_equilibrium(const Scene& scene) {
   return starts_in_equilibrium(scene) && !scene.composition().has_width();
 }
@@ -81,12 +91,27 @@ bool has_exact_equilibrium(const Scene& scene) {
 }  // namespace
 
 std::vector<double> initial_rates_by_pair(const LoadedScene& loaded) {
-  const Scene& scene = loaded.scene;
-  const auto start = temperatures_by_species(loaded);
-  const std::vector<double> open =
-      theory::mixture_rates(scene.composition(), volume_of(scene), start).collisions;
-  std::vector<double> rates = open;
-  return !loaded.initial && put_between_walls(scene, start, rates) ? rates : open;
+  return initial_rates_of(loaded, loaded.scene.composition());
+}
+
+std::vector<double> counted_rates_by_pair(const LoadedScene& loaded) {
+  const Composition composition = loaded.scene.composition();
+  if (composition.has_width()) return initial_rates_by_pair(loaded);
+  Composition paired = composition;  // with a rate of each species with itself
+  for (std::size_t n = 0; n < composition.size(); ++n) {
+    if (composition[n].count == 1) paired.set_count(n, 2);
+  }
+  std::vector<double> rates = initial_rates_of(loaded, paired);
+  for (std::size_t a = 0; a < composition.size(); ++a) {
+    for (std::size_t b = a; b < composition.size(); ++b) {
+      const auto pairs = [&](const Composition& of, double self) {
+        return static_cast<double>(of[a].count) * (static_cast<double>(of[b].count) - self);
+      };
+      const double known = pairs(paired, a == b ? 1 : 0);
+      if (known > 0) rates[composition.pair_index(a, b)] *= pairs(composition, 0) / known;
+    }
+  }
+  return rates;
 }
 
 double initial_collision_rate(const LoadedScene& loaded) {
@@ -99,7 +124,7 @@ double initial_collision_rate(const LoadedScene& loaded) {
         loaded.initial ? 1 : factor_between_walls(scene, all, start, all, start).value_or(1);
     return factor * theory::collision_rate(theory_density_of(scene), start, all.k);
   }
-  const std::vector<double> rates = initial_rates_by_pair(loaded);
+  const std::vector<double> rates = counted_rates_by_pair(loaded);
   const double all = std::accumulate(rates.begin(), rates.end(), 0.0);
   return 2 * all / static_cast<double>(composition.count());
 }

@@ -13,7 +13,10 @@ namespace needlework::runs {
 /// Composition::pair_index: exact for a state that is drawn, also between two walls along one axis.
 /// [1 / time]
 std::vector<double> initial_rates_by_pair(const LoadedScene& loaded);
-/// The same as collisions that a needle takes part in, on average over all needles. [1 / time]
+/// The same as mean free times count them, by which t_c and windows go: thin needles are partners
+/// of themselves, so that equal ones have one free time in one species and in several. [1 / time]
+std::vector<double> counted_rates_by_pair(const LoadedScene& loaded);
+/// The latter as collisions that a needle takes part in, on average over all needles. [1 / time]
 double initial_collision_rate(const LoadedScene& loaded);
 
 /// Whether all is known of the gas from the start: elastic needles that are drawn with equal

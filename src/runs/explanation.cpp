@@ -80,7 +80,8 @@ std::vector<ExplainedWall> walls_of(const LoadedScene& loaded) {
 std::vector<ExplainedGravity> gravity_of(const LoadedScene& loaded) {
   const Composition composition = loaded.scene.composition();
   const theory::Temperatures start = initial_temperatures(loaded);
-  const double temperature = (3 * start.t_tr + 2 * start.t_rot) / 5;
+  const double temperature = 2 * start.energy() / (3 + 2 * start.turning);
+  const std::array<bool, 3> periodic = loaded.scene.periodic();
   std::vector<ExplainedGravity> out;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double pull = std::abs(loaded.scene.forces.gravity[axis]);
@@ -88,7 +89,7 @@ std::vector<ExplainedGravity> gravity_of(const LoadedScene& loaded) {
     ExplainedGravity& along = out.emplace_back(ExplainedGravity{.axis = axis});
     for (const Species& each : composition.species()) {
       along.weight += static_cast<double>(each.count) * each.mass * pull;
-      along.scale_heights.push_back(temperature / (each.mass * pull));
+      if (!periodic[axis]) along.scale_heights.push_back(temperature / (each.mass * pull));
     }
   }
   return out;
@@ -127,6 +128,7 @@ Explanation::Explanation(const LoadedScene& loaded)
       mean_free_time(mean_free_time_of(initial_collision_rate(loaded))),
       rate_exact(equilibrium_rate(scene, initial.energy())),
       rates(rates_of(loaded)),
+      counted_rates(rates.empty() ? rates : counted_rates_by_pair(loaded)),
       walls(walls_of(loaded)),
       gravity(gravity_of(loaded)),
       kick_power(kick_power_of(scene)),

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "needlework/initial_state.h"
 #include "needlework/theory.h"
-#include "src/engine/initial_state.h"
 #include "src/observe/forecast.h"
 #include "src/runs/loaded_scene.h"
 #include "src/scene/confinement.h"
@@ -21,11 +21,14 @@ struct ExplainedWall {
   double force = 0;  ///< mean, of all needles [energy / L]
 };
 
-/// What gravity does along an axis, in the steady state over a floor without a ceiling.
+/// What gravity does along an axis, in the steady state: over a floor without a ceiling, or along a
+/// periodic axis beside thermal walls.
 struct ExplainedGravity {
   std::size_t axis = 0;
-  double weight = 0;  ///< of all needles: the mean force on the floor [energy / L]
-  /// T / (m g) of each species, at the temperature of the start: T = (3 T_tr + 2 T_rot) / 5 [L]
+  double weight = 0;  ///< of all needles: the mean force on the floor, or on the faces of the
+                      ///< walls beside a periodic axis [energy / L]
+  /// T / (m g) of each species, at the temperature of the start: T = (3 T_tr + 2 T_rot) / 5; empty
+  /// along a periodic axis [L]
   std::vector<double> scale_heights = {};
 };
 
@@ -43,6 +46,7 @@ struct Explanation {
   /// Of a mixture: collisions of each two species per time at the start, by
   /// Composition::pair_index; empty if they are too many.
   std::vector<double> rates;
+  std::vector<double> counted_rates;  ///< the same, as runs::counted_rates_by_pair()
   std::vector<ExplainedWall> walls;
   std::vector<ExplainedGravity> gravity;  ///< along the axes along which there is some
   double kick_power;                      ///< energy per needle and time that kicks give

@@ -79,6 +79,7 @@ Totals totals_of(const State& state, const Scene& scene) {
   Totals totals;
   const double count = static_cast<double>(state.size());
   const std::array<double, 3>& gravity = scene.forces.gravity;
+  const std::array<bool, 3> periodic = scene.periodic();
   double fall = 0;  // potential energy
   for (std::size_t i = 0; i < state.size(); ++i) {
     const Species& species = composition[composition.is_mixture() ? indices.at(i) : 0];
@@ -87,22 +88,25 @@ Totals totals_of(const State& state, const Scene& scene) {
     totals.t_rot += inertia * square(state.angular_velocity[i]) / (2 * count);
     for (int axis = 0; axis < 3; ++axis) {
       totals.momentum[axis] += species.mass * state.velocity[i][axis];
-      fall -= species.mass * gravity[axis] * state.position[i][axis];
+      if (!periodic[axis]) fall -= species.mass * gravity[axis] * state.position[i][axis];
     }
   }
-  totals.energy = 1.5 * totals.t_tr + totals.t_rot;
+  const double turning = composition.turning_share();
+  if (turning > 0) totals.t_rot /= turning;
+  totals.energy = 1.5 * totals.t_tr + turning * totals.t_rot;
   if (fall != 0) totals.energy += fall / count;
   return totals;
 }
 
 theory::Temperatures initial_temperatures(const LoadedScene& loaded) {
+  const Composition composition = loaded.scene.composition();
   if (!loaded.initial) {
-    const Composition composition = loaded.scene.composition();
-    if (!composition.is_mixture()) return {composition[0].t_tr, composition[0].t_rot};
+    const double turning = composition.turning_share();
+    if (!composition.is_mixture()) return {composition[0].t_tr, composition[0].t_rot, turning};
     return theory::mean_of_species(composition, temperatures_by_species(loaded));
   }
   const Totals totals = totals_of(*loaded.initial, loaded.scene);
-  return {totals.t_tr, totals.t_rot};
+  return {totals.t_tr, totals.t_rot, composition.turning_share()};
 }
 
 std::vector<theory::Temperatures> temperatures_by_species(const LoadedScene& loaded) {

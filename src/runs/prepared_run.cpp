@@ -175,8 +175,8 @@ void PreparedRun::require_consistent(const RunCheckpoint& saved) const {
   const double scale = std::max(std::abs(energy), 1.5 * initial_.t_tr + initial_.t_rot);
   const bool consistent =
       simulation_.needles() == scene_.needles.count &&
-      are_possible(initial_, has_gravity(scene_)) && initial_.time == 0 &&
-      initial_.collisions == 0 &&
+      are_possible(initial_, simulation_.composition().turning_share(), has_gravity(scene_)) &&
+      initial_.time == 0 && initial_.collisions == 0 &&
       (scene_.needles.count == 0 || std::abs(initial_.energy - energy) <= 1e-9 * scale);
   if (!consistent) throw_damaged(saved.origin);
 }

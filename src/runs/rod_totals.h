@@ -9,9 +9,9 @@ namespace needlework::runs {
 struct RodTotals {
   double packing_fraction = 0;  ///< share of the box that they take up
   double virial = 0;            ///< Simulation::virial()
-  /// (N T_tr + virial / (3 t)) / V, of the present temperature and of all collisions: the mean
-  /// since the start where the temperature does not change. NaN at the start. [energy / L^3]
+  /// The mean over the run, by observe::Pressure; NaN at the start. [energy / L^3]
   double pressure = 0;
+  const char* pressure_meaning = "";  ///< observe::Pressure::meaning()
 };
 
 /// Of a simulation of this scene.

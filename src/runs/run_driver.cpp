@@ -196,9 +196,10 @@ void RunDriver::require_restored(const Archive& archive) const {
   const double now = simulation_.time() * (1 - 0x1p-50);
   archive.require(series_.is_rest_of(series_schedule(scene_.output, 1), now) &&
                   frames_.is_rest_of(frame_schedule(scene_.output, 1), now));
+  const double turning = simulation_.composition().turning_share();
   const bool falls = has_gravity(scene_);
   archive.require(std::ranges::all_of(
-      course_.samples, [&](const Totals& sample) { return are_possible(sample, falls); }));
+      course_.samples, [&](const Totals& sample) { return are_possible(sample, turning, falls); }));
   // A run begins with a sample, with which that of its end is compared.
   archive.require(!begun_ || last_sample_);
 }
@@ -284,6 +285,8 @@ void RunDriver::sample(bool series, bool frame) {
       species.walls = simulation_.wall_totals();
       species.energy = simulation_.energy_budget();
       species.virial = simulation_.virial();
+      if (simulation_.composition().has_width())
+        species.t_tr_integral = simulation_.t_tr_integral();
       species.contacts = simulation_.sliding_contacts().value_or(SlidingContacts{});
       const auto values = observation->sample(state, totals, species);
       if (writer) writer->write_series(totals, values);

@@ -151,6 +151,8 @@ void add_budget(const Scene& scene, std::span<const Run> runs, PointSummary& poi
   }
   if (scene.driving.kicks)
     add_result("budget_kicks", runs, point, [](const Run& run) { return run.energy.kicks; });
+  if (has_gravity_along_periodic(scene))
+    add_result("budget_gravity", runs, point, [](const Run& run) { return run.energy.gravity; });
 }
 
 void add_estimates(PointSummary& point, std::span<const Run> runs, const Scene& scene) {

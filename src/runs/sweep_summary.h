@@ -63,8 +63,8 @@ std::vector<PointSummary> summarise(const Grid& grid, const FinishedRun& finishe
 ///   /results      time, collisions, tc_collisions, collisions_per_needle, collision_rate, energy,
 ///                 energy_ratio, t_tr, t_rot at the ends of the runs: each a group with mean [P]
 ///                 and standard_error [P]; of each wall hits_z_low, impulse_z_low, pressure_z_low
-///                 and budget_z_low, and with walls or driving budget_pairs, budget_thermostat and
-///                 budget_kicks
+///                 and budget_z_low, and with walls or driving budget_pairs, budget_thermostat,
+///                 budget_kicks and budget_gravity
 ///   /series       a group for each point, 00000, 00001, ...: time [S], and t_tr, t_rot, energy,
 ///                 momentum, collisions, tc_collisions, each a group with mean and standard_error
 ///                 [S], [S][3] for momentum

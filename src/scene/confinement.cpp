@@ -77,8 +77,9 @@ void require_thermal_walls_at_rest(const Scene& scene) {
   }
 }
 
-// Nothing holds needles back on an open side but gravity.
-void require_gravity_to_single_walls(const Scene& scene) {
+// Nothing holds needles back on an open side but gravity, and nothing brakes them along a periodic
+// axis but the faces of thermal walls beside it.
+void require_gravity_to_walls(const Scene& scene) {
   const std::array<Gap, 3> gaps = gaps_of(scene);
   for (const Scene::WallSide& side : scene.wall_sides()) {
     const double gravity = scene.forces.gravity[side.axis];
@@ -90,13 +91,20 @@ void require_gravity_to_single_walls(const Scene& scene) {
                     "one: needles would leave the box at its open side",
                     axis));
   }
-  for (std::size_t axis = 0; axis < 3; ++axis) {
+  const bool brakes = std::ranges::any_of(
+      scene.walls, [](const Scene::Wall& wall) { return wall.temperature.has_value(); });
+  for (std::size_t axis = 0; axis < 3 && !brakes; ++axis) {
     if (scene.forces.gravity[axis] == 0 || gaps[axis].is_walled()) continue;
-    refuse_at(
-        place_of_gravity(scene),
-        fmt::format("none along {}, which is periodic: there gravity does nothing to the motion "
-                    "of needles relative to each other",
-                    axis_names[axis]));
+    refuse_at(place_of_gravity(scene),
+              fmt::format("none along {0}, which is periodic, or a wall with a temperature along "
+                          "another axis: thermal walls brake along their face, and without one all "
+                          "needles would gain speed along {0} together for ever",
+                          axis_names[axis]));
+  }
+  if (brakes && has_gravity_along_periodic(scene) && scene.until.energy_ratio) {
+    refuse_at(place_of(scene, "until.energy_ratio", fmt::to_string(*scene.until.energy_ratio)),
+              "another end, such as time: gravity along a periodic axis does work all the time, "
+              "which thermal walls take out");
   }
 }
 
@@ -197,12 +205,20 @@ bool is_pushed(const Scene& scene) { return exchanges_energy(scene) || has_gravi
 
 bool has_gravity(const Scene& scene) { return scene.forces.gravity != std::array<double, 3>{}; }
 
+bool has_gravity_along_periodic(const Scene& scene) {
+  const std::array<bool, 3> periodic = scene.periodic();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (periodic[axis] && scene.forces.gravity[axis] != 0) return true;
+  }
+  return false;
+}
+
 std::string name_of(const Scene::Wall& wall) { return wall.axis + "-" + wall.side; }
 
 void require_compatible_effects(const Scene& scene) {
   require_one_wall_a_side(scene);
   require_thermal_walls_at_rest(scene);
-  require_gravity_to_single_walls(scene);
+  require_gravity_to_walls(scene);
   require_thermostat_without_gravity(scene);
   require_what_slides(scene);
 }

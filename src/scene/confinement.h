@@ -55,6 +55,8 @@ bool exchanges_energy(const Scene& scene);
 /// is.
 bool is_pushed(const Scene& scene);
 bool has_gravity(const Scene& scene);
+/// Whether there is some along a periodic axis, where thermal walls beside it brake.
+bool has_gravity_along_periodic(const Scene& scene);
 
 /// "x-low": how messages and `--set` name an entry [[walls]].
 std::string name_of(const Scene::Wall& wall);

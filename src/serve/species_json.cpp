@@ -69,7 +69,8 @@ void add_rods(Json& json, const Scene& scene, const Simulation& simulation) {
   const runs::RodTotals rods = runs::rod_totals(scene, simulation);
   json["rods"] = {{"packing_fraction", rods.packing_fraction},
                   {"virial", rods.virial},
-                  {"pressure", number_or_null(rods.pressure)}};
+                  {"pressure", number_or_null(rods.pressure)},
+                  {"pressure_meaning", rods.pressure_meaning}};
 }
 
 }  // namespace needlework::serve

@@ -24,8 +24,8 @@ void add_energy_budget(nlohmann::ordered_json& json, const Simulation& simulatio
 /// since the start, where needles may slide on each other.
 void add_contacts(nlohmann::ordered_json& json, const Simulation& simulation);
 
-/// Adds "rods", {packing_fraction, virial, pressure}, of rods of finite width; the latter two since
-/// the start.
+/// Adds "rods", {packing_fraction, virial, pressure, pressure_meaning}, of rods of finite width;
+/// the latter two since the start.
 void add_rods(nlohmann::ordered_json& json, const Scene& scene, const Simulation& simulation);
 
 }  // namespace needlework::serve

@@ -19,13 +19,14 @@ inline void transfer(Archive& archive, WallTotals& wall) {
   archive(axis, high, hits, impulse, normal_impulse, area, phase);
 }
 
-/// Whether these can be the totals of a gas, as far as can be seen from them alone. `falls`: their
-/// energy is not that of motion alone, as there is gravity.
-inline bool are_possible(const Totals& totals, bool falls) {
+/// Whether these can be the totals of a gas of which this share turns, as far as can be seen from
+/// them alone. `falls`: their energy is not that of motion alone, as there is gravity.
+inline bool are_possible(const Totals& totals, double turning, bool falls) {
   const auto is_amount = [](double x) { return std::isfinite(x) && x >= 0; };
   const auto is_finite = [](double x) { return std::isfinite(x); };
   return is_amount(totals.time) && is_amount(totals.t_tr) && is_amount(totals.t_rot) &&
-         (falls ? is_finite(totals.energy) : totals.energy == 1.5 * totals.t_tr + totals.t_rot) &&
+         (falls ? is_finite(totals.energy)
+                : totals.energy == 1.5 * totals.t_tr + turning * totals.t_rot) &&
          std::ranges::all_of(totals.momentum, is_finite) &&
          totals.tc_collisions <= totals.collisions;
 }

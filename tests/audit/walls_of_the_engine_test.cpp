@@ -43,7 +43,12 @@ TEST(AuditOfWalls, FindsNothingWrongWithGravityAndMotion) {
   Scene rising = falling;
   rising.walls[0].side = "high";
   rising.forces.gravity = {0, 0, 3};
-  for (const Scene& scene : {falling, vibrated, rising}) expect_clean_gas(scene);
+  Scene channel = scene_of(60, 4);
+  channel.walls = {wall("z", "both")};
+  channel.walls[0].temperature = 1;
+  channel.forces.gravity = {2, -1, 0};
+  channel.collisions = vibrated.collisions;
+  for (const Scene& scene : {falling, vibrated, rising, channel}) expect_clean_gas(scene);
 }
 
 // Spheres that fly hundreds of edges away through an open side, where their places round more.

@@ -1,6 +1,8 @@
 // What the program says of mixtures: before, after and beside a run.
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "needlework/parse.h"
 #include "needlework/theory.h"
@@ -50,19 +52,55 @@ TEST_F(MixtureCommand, IsExplainedInJson) {
   EXPECT_EQ(check["species"][1]["k"], 3);
   EXPECT_EQ(check["pairs"]["heavy-heavy"]["beta"], 0.5);
   EXPECT_EQ(check["pairs"]["light-heavy"]["epsilon"], 0.8);
-  // Each needle's mean free time is in the rates of its pairs.
+  // Each needle's mean free time is in the rates of its pairs, where it counts as one of its own.
   const auto rate = [&](const char* pair) {
     return check["pairs"][pair]["collisions_per_time"].get<double>();
   };
-  EXPECT_NEAR(100 / (2 * rate("heavy-heavy") + rate("light-heavy")),
+  const double light = rate("light-light") * 300 / 299, heavy = rate("heavy-heavy") * 100 / 99;
+  EXPECT_NEAR(100 / (2 * heavy + rate("light-heavy")),
               check["species"][1]["mean_free_time"].get<double>(), 1e-12);
-  EXPECT_NEAR(400 / (2 * (rate("light-light") + rate("light-heavy") + rate("heavy-heavy"))),
+  EXPECT_NEAR(400 / (2 * (light + rate("light-heavy") + heavy)),
               check["mean_free_time"].get<double>(), 1e-12);
   // What is forecast is what happens, as far as so few needles go.
   const json done = json_of("run cooling.toml --json");
   EXPECT_NEAR(check["expected"]["time"].get<double>() / done["time"].get<double>(), 1, 0.2);
   EXPECT_NEAR(check["expected"]["collisions"].get<double>() / done["collisions"].get<double>(), 1,
               0.2);
+}
+
+// Five needles of one species, as a mixture of equal ones, also of single ones.
+TEST_F(MixtureCommand, HasTheMeanFreeTimeOfEqualNeedlesInOneSpecies) {
+  write("one.toml", "needles = { count = 5, box = 4 }\nuntil.time = 1\n");
+  const double one = json_of("check one.toml --json")["mean_free_time"];
+  for (const std::vector<int>& counts : {std::vector{3, 2}, {4, 1}, {1, 1, 1, 1, 1}}) {
+    std::string text = "needles.box = 4\nuntil.time = 1\n";
+    for (std::size_t n = 0; n < counts.size(); ++n) {
+      text += "[[species]]\nname = \"" + std::string(1, static_cast<char>('a' + n)) +
+              "\"\ncount = " + std::to_string(counts[n]) + "\n";
+    }
+    write("several.toml", text);
+    const json check = json_of("check several.toml --json");
+    EXPECT_NEAR(check["mean_free_time"].get<double>(), one, 1e-9 * one) << text;
+    EXPECT_NEAR(check["species"][1]["mean_free_time"].get<double>(), one, 1e-9 * one) << text;
+  }
+}
+
+// With 40 species there are 820 pairs of them.
+TEST_F(MixtureCommand, EndsWithASummaryThatAPersonReads) {
+  std::string text = "needles.box = 12\nuntil.collisions_per_needle = 2\ncollisions.epsilon = 1\n";
+  for (int n = 0; n < 40; ++n) {
+    text += "[[species]]\nname = \"s" + std::to_string(n) +
+            "\"\ncount = " + std::to_string(n == 17 ? 50 : 2) + "\n";
+  }
+  write("many.toml", text);
+  const Outcome summary = run("run many.toml");
+  EXPECT_EQ(summary.exit_code, 0);
+  EXPECT_LT(std::ranges::count(summary.out, '\n'), 40) << summary.out;
+  expect_parts(summary.out, {"s17: 50 needles", "s17-s17: ",
+                             "32 more, each with as few or fewer: run --json has all, in species",
+                             "812 more, each with as few or fewer: run --json has all, in "
+                             "collisions_by_pair"});
+  EXPECT_EQ(json_of("run many.toml --json")["collisions_by_pair"].size(), 820u);
 }
 
 TEST_F(MixtureCommand, EndsWithASummaryBySpecies) {

@@ -40,6 +40,9 @@ TEST_F(RodsCommand, SaysWhatIsKnownOfThem) {
   const auto summary = json_of("run rods.toml --json --quiet");
   EXPECT_NEAR(summary["energy_initial"].get<double>(), 1.5 + 0.4, 1e-12);
   EXPECT_EQ(summary["species"][0]["t_rot"], 0);
+  EXPECT_DOUBLE_EQ(summary["t_rot"].get<double>(),  // that of what turns
+                   summary["species"][1]["t_rot"].get<double>());
+  EXPECT_EQ(check["t_rot"], 1);
   EXPECT_EQ(summary["effects"], "inelastic tc mixture rods");
   EXPECT_EQ(summary["placement"].get<std::string>().substr(0, 9), "100 rods ");
   EXPECT_TRUE(summary["collision_rate_exact"].is_null());
@@ -67,6 +70,29 @@ TEST_F(RodsCommand, GivesTheirPressure) {
             std::string::npos);
   // Out of equilibrium there is none.
   EXPECT_TRUE(json_of("theory rods.toml --json")["rods"]["pressure"].is_null());
+}
+
+// Between walls it is what these feel, which gravity along their axis makes depend on the height.
+TEST_F(RodsCommand, GivesThePressureOnWalls) {
+  const std::string scene =
+      "needles.box = [1.2, 8, 8]\nuntil.time = 30\ncollisions.epsilon = 1\n"
+      "[[species]]\nname = \"balls\"\ncount = 20\nlength = 0\ndiameter = 1\n"
+      "[[walls]]\naxis = \"x\"\nside = \"both\"\n";
+  write("slit.toml", scene);
+  const auto result = json_of("run slit.toml --json --quiet");
+  const auto on = [&](std::size_t n) { return result["walls"][n]["pressure"].get<double>(); };
+  EXPECT_NEAR(result["rods"]["pressure"].get<double>(), (on(0) + on(1)) / 2, 1e-12 * on(0));
+  EXPECT_EQ(result["rods"]["pressure_meaning"], "mean over the run, on the walls");
+  // Far more than N T / V: their centres have a sixth of the slit.
+  EXPECT_GT(on(0), 4.0 * 20 / (1.2 * 64));
+  const std::string falling = " --set forces.gravity=[-1,0,0]";
+  const auto none = json_of("run slit.toml --json --quiet" + falling)["rods"];
+  EXPECT_TRUE(none["pressure"].is_null());
+  EXPECT_EQ(none["pressure_meaning"],
+            "none: under gravity it depends on the height; walls have theirs");
+  EXPECT_NE(run("run slit.toml" + falling).out.find("pressure none: under gravity"),
+            std::string::npos);
+  EXPECT_EQ(run("run slit.toml").out.find("T_rot"), std::string::npos);  // of spheres alone
 }
 
 TEST_F(RodsCommand, DrawsThemAsWideAsTheyAre) {

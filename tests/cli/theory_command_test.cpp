@@ -1,4 +1,5 @@
 // The command `needlework theory`, as other people's scripts see it.
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -66,6 +67,28 @@ TEST_F(TheoryCommand, SaysHowElasticNeedlesDiffuse) {
     const auto without = run(std::string("theory --k 6 --json ") + other).json();
     EXPECT_FALSE(without.contains("diffusion")) << other;
   }
+}
+
+// The same needles four times as hot: everything happens in half the time, at the same tau.
+TEST_F(TheoryCommand, CountsTauInTheThermalSpeed) {
+  const std::string scene =
+      "needles = { count = 100, box = 5 }\nuntil.time = 1\n"
+      "collisions = { epsilon = 0.8, tc_relative = 1e-3 }\n";
+  write("cold.toml", scene + "initial = { t_tr = 1, t_rot = 0.5 }\n");
+  write("hot.toml", scene + "initial = { t_tr = 4, t_rot = 2 }\n");
+  const auto cold = json_of("theory --json --time 2 cold.toml");
+  const auto hot = json_of("theory --json --time 1 hot.toml");
+  EXPECT_NEAR(cold["tau"][0].get<double>(), 2.0 / 3 * std::sqrt(M_PI) * 100 / 125 * 2, 1e-12);
+  for (const char* same : {"tau", "collisions_per_needle"})
+    EXPECT_NEAR(hot[same][0].get<double>(), cold[same][0].get<double>(), 1e-9) << same;
+  EXPECT_NEAR(hot["time"][0].get<double>(), 1, 1e-12);
+  EXPECT_NEAR(hot["t_tr"][0].get<double>(), 4 * cold["t_tr"][0].get<double>(), 1e-9);
+  const auto at_tau = json_of("theory --json hot.toml --tau " + hot["tau"][0].dump());
+  EXPECT_NEAR(at_tau["time"][0].get<double>(), 1, 1e-12);
+  EXPECT_NEAR(at_tau["t_tr"][0].get<double>(), hot["t_tr"][0].get<double>(), 1e-9);
+  const std::string single = " --boltzmann single --needles 640 --json --time ";
+  EXPECT_NEAR(json_of("theory hot.toml" + single + "1")["tau"][0].get<double>(),
+              json_of("theory cold.toml" + single + "2")["tau"][0].get<double>(), 1e-12);
 }
 
 TEST_F(TheoryCommand, StartsWithEqualTemperatures) {

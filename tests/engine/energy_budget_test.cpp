@@ -41,7 +41,8 @@ std::vector<NamedBudgetScene> budget_scenes() {
   std::vector<NamedBudgetScene> out{{"shaken mixture", shaken_mixture()},
                                     {"thermostat", test::scene_of(160, 5, 5)},
                                     {"cooling", test::scene_of(160, 5, 5)},
-                                    {"ceiling", shaken_mixture()}};
+                                    {"ceiling", shaken_mixture()},
+                                    {"channel", shaken_mixture()}};
   Scene& thermostat = out[1].scene;
   thermostat.collisions.epsilon = 0.7;
   thermostat.collisions.tc_relative = 1e-3;
@@ -53,6 +54,7 @@ std::vector<NamedBudgetScene> budget_scenes() {
   // Heights count from the low edges, from where the energy is negative.
   out[3].scene.forces.gravity[2] = 3;
   out[3].scene.walls[0].side = "high";
+  out[4].scene.forces.gravity[1] = -1.5;  // along the periodic axis, beside a thermal wall
   return out;
 }
 

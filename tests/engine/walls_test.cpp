@@ -112,6 +112,62 @@ TEST(WallsAndGravity, ContinueFromACheckpointBitForBit) {
   test::expect_to_continue(scene, 1.3, 3, other);
 }
 
+// Between thermal walls, with gravity along a periodic axis and along an open one: needles cross
+// the box ever faster, and its border in all cells.
+Scene chute(std::uint64_t count = 160) {
+  Scene scene = shaken(count);
+  scene.walls = {{.axis = "z", .side = "low", .temperature = 1}};
+  scene.forces.gravity = {3, -0.7, -1};
+  return scene;
+}
+
+TEST(GravityAlongPeriodicAxes, HasOneTrajectory) {
+  const Scene scene = chute();
+  const Course first = course_of(scene, loop_of("all-pairs", "lazy-heap"), 5);
+  EXPECT_GT(first.events, 300u);
+  EXPECT_GT(first.collisions, 250u);
+  for (const char* search : {"linked-lists", "linked-cells", "capsules"}) {
+    for (const char* calendar : {"tournament", "cell-calendar"}) {
+      const Course other = course_of(scene, loop_of(search, calendar), 5);
+      EXPECT_EQ(other.hash, first.hash) << search << ", " << calendar;
+      EXPECT_EQ(other.events, first.events);
+    }
+  }
+}
+
+TEST(GravityAlongPeriodicAxes, HasOneTrajectoryOnThreads) {
+  Scene scene = chute(1200);
+  scene.needles.box = {14, 10, 6};
+  const Course first = course_of(scene, loop_of("linked-cells", "tournament"), 1.5);
+  for (const char* search : {"linked-cells", "capsules"}) {
+    const auto make = [&](needlework::Run& run) {
+      return test::parallel_loop(run, search, 3, {.sight = 1.6, .least = 1, .by_cost = false});
+    };
+    EXPECT_EQ(course_of(scene, make, 1.5).hash, first.hash) << search;
+  }
+}
+
+TEST(GravityAlongPeriodicAxes, ContinuesFromACheckpointBitForBit) {
+  const Scene scene = chute();
+  Scene other = scene;
+  other.forces.gravity[0] *= 1.01;
+  test::expect_to_continue(scene, 1.3, 3, other);
+  Simulation whole(scene), half(scene);
+  whole.advance(until_time(3));
+  half.advance(until_time(1.3));
+  Simulation rest(scene, half.checkpoint());
+  rest.advance(until_time(3));
+  EXPECT_EQ(rest.energy_budget().gravity, whole.energy_budget().gravity);
+  EXPECT_NEAR(whole.energy_drift(), 0, 1e-12);
+}
+
+TEST(GravityAlongPeriodicAxes, HasNoEndByEnergy) {
+  Simulation run(chute());
+  Scene::Until until;
+  until.energy_ratio = 0.5;
+  EXPECT_THROW(run.advance(until), InputError);
+}
+
 // One needle in free space between walls on all axes, of the least edges that there may be.
 Scene one_needle(double edge) {
   Scene scene = test::scene_of(1, edge);

@@ -1,6 +1,7 @@
 // Exports of frames: what is written is read back bit for bit, what cannot be read is named, and
 // nothing is left after a failure.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <fstream>
@@ -370,6 +371,36 @@ TEST_F(Formats, PositionsAreCountedFromTheLowWall) {
   const State read = read_configuration(file("a.dump")).state;
   EXPECT_EQ(read.position[0], (std::array<double, 3>{-1, 2, 2}));
   EXPECT_EQ(read.image[0], (std::array<std::int32_t, 3>{1, 1, 0}));
+}
+
+// Bounds hold needles above an open side and behind a wall that has moved outwards; the edges are
+// beside them.
+TEST_F(Formats, BoundsEncloseWhatIsBeyondTheEdges) {
+  State state = between_walls();
+  const double edge = state.box[2], half = material.length[0] / 2;
+  for (auto& position : state.position) position = {1, 2, 3};
+  state.position[3][2] = edge + 2.5;
+  state.position[4][2] = -0.25;
+  Material open = material;
+  open.walls = {wall("z", "low"), wall("y", "both")};
+  for (const char* name : {"a.dump", "a.data"}) {
+    const Configuration read = read_configuration(put(name, {state}, open));
+    EXPECT_EQ(read.state.box, state.box) << name;
+    EXPECT_EQ(read.state.position, state.position) << name;
+    const std::string text = text_of_file(name);
+    const std::string bounds = fmt::format("{} {}", -0.25 - half, edge + 2.5 + half);
+    EXPECT_NE(text.find("\n" + bounds), text.npos) << name;
+    EXPECT_NE(text.find(fmt::format("\n0 {}", state.box[1])), text.npos) << name;
+  }
+  EXPECT_NE(text_of_file("a.data").find(fmt::format(" edges={}", fmt::join(state.box, ","))),
+            std::string::npos);
+  state.position[3][2] = state.position[4][2] = 1;
+  for (const char* name : {"b.dump", "b.data"}) {
+    put(name, {state}, open);
+    EXPECT_EQ(text_of_file(name).find("edge"), std::string::npos) << name;
+  }
+  EXPECT_NE(complaint(replaced(text_of_file("a.data"), " edges=", " edges=-")).find("edges = -"),
+            std::string::npos);
 }
 
 TEST_F(Formats, BoxesWithTiltsOfZeroAreRectangular) {

@@ -37,6 +37,26 @@ dump_modify u format float %.17g
 run 0
 write_data back.data
 """
+# Needles above the open side, and a wall that is behind the edge at the end.
+BEYOND = """
+needles = { count = 60, box = [5, 5, 6] }
+initial.t_tr = 4
+forces.gravity = [0, 0, -1]
+until.time = 5
+[[walls]]
+axis = "z"
+side = "low"
+motion = { amplitude = 1, frequency = 0.05, phase = 3.2 }
+"""
+OPEN = """
+units lj
+atom_style hybrid sphere dipole
+boundary p p fs
+read_data beyond.data
+pair_style zero 1.0
+pair_coeff * *
+run 0
+"""
 READ_DUMP = """
 region box block 0 6 0 7 0 8
 create_box 1 box
@@ -57,10 +77,24 @@ def needles(path):
         return {name: group[name]["value"][-1][order] for name in names}
 
 
-def lammps(folder, read):
+def lammps(folder, read, script=SCRIPT):
     with open(os.path.join(folder, "in.lammps"), "w") as file:
-        file.write(SCRIPT.format(read=read))
+        file.write(script.format(read=read))
     run(folder, "lmp", "-in", "in.lammps", "-log", "none")
+
+
+def lammps_reads_what_is_beyond_edges(folder, program):
+    with open(os.path.join(folder, "beyond.toml"), "w") as file:
+        file.write(BEYOND)
+    run(folder, program, "run", "beyond.toml", "--out", "beyond.h5", "--quiet")
+    run(folder, program, "export", "beyond.h5", "beyond.data")
+    wanted = needles(os.path.join(folder, "beyond.h5"))
+    heights = wanted["position"][:, 2]
+    assert heights.max() > 6 and heights.min() < 0, (heights.min(), heights.max())
+    lammps(folder, "", OPEN)  # an atom beyond the bounds is an error
+    run(folder, program, "import", "beyond.data", "--out", "beyond")
+    found = needles(os.path.join(folder, "beyond", "state.h5"))
+    assert np.array_equal(found["position"], wanted["position"])
 
 
 def main(_writer, program):
@@ -100,6 +134,7 @@ def main(_writer, program):
         for key, columns in [("position", slice(2, 5)), ("image", slice(5, 8)),
                              ("velocity", slice(8, 11))]:
             assert np.array_equal(table[:, columns], wanted[key]), key
+        lammps_reads_what_is_beyond_edges(folder, program)
 
 
 if __name__ == "__main__":

@@ -2,7 +2,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "src/observe/ideal_pairs.h"
 #include "tests/observe/observed.h"
+#include "tests/support/random.h"
 
 namespace needlework::observe {
 namespace {
@@ -30,7 +32,7 @@ TEST(PairCorrelation, OfTwoNeedlesIsAtTheirDistance) {
   }
 }
 
-TEST(PairCorrelation, EndsAtHalfTheShortestEdge) {
+TEST(PairCorrelation, EndsAtHalfTheShortestPeriodicEdge) {
   Values values =
       Observed(scene_with("pair_correlation", 0, {5, 4, 9})).sample(resting(0, pairs_box));
   EXPECT_DOUBLE_EQ(values["borders"].back(), 2);
@@ -76,6 +78,63 @@ TEST(PairCorrelation, CountsEveryPairOnce) {
           (std::pow(values["borders"][n + 1], 3) - std::pow(values["borders"][n], 3));
       EXPECT_NEAR(values["g"][n] * 400 * 399 / 2 * shell / (edge * edge * edge), pairs[n], 1e-6)
           << edge << " " << n;
+    }
+  }
+}
+
+// In a slit as high as two needles fit in; the range is that of the periodic axes. Drawn states are
+// those of equilibrium, and their pairs are nearly independent.
+TEST(PairCorrelation, OfNeedlesBetweenWallsIsOne) {
+  Scene scene = scene_with("pair_correlation", 400, {8, 7, 1.2});
+  scene.walls = {{.axis = "z", .side = "both"}};
+  std::vector<double> sums(bins);
+  Values values;
+  constexpr int draws = 40;
+  for (int draw = 0; draw < draws; ++draw) {
+    scene.needles.seed = static_cast<std::uint64_t>(100 + draw);
+    values = Observed(scene).sample(draw_initial_state(scene));
+    for (std::size_t n = 0; n < bins; ++n) sums[n] += values["g"][n] / draws;
+  }
+  EXPECT_DOUBLE_EQ(values["borders"].back(), 3);
+  const std::vector<double> shares = IdealPairs(setting_of(scene)).shares(0, 0, values["borders"]);
+  double square = 0;
+  for (std::size_t n = 0; n < bins; ++n) {
+    const double error = 1 / std::sqrt(draws * 400 * 399 / 2 * shares[n]);
+    EXPECT_NEAR(sums[n], 1, 4.5 * error) << n;
+    square += std::pow((sums[n] - 1) / error, 2);
+  }
+  EXPECT_LT(square, 60 + 4 * std::sqrt(2 * 60));
+}
+
+// Points in a box of which any axes have walls, counted pair by pair.
+TEST(IdealPairs, AreThoseOfPointsAnywhere) {
+  const Vector box{1.7, 4, 2.6};
+  test::Random random(5);
+  for (const char* walls : {"", "x", "y", "xz", "xyz"}) {
+    Scene scene = scene_with("pair_correlation", 0, box);
+    scene.species = {{.name = "spheres", .count = 2, .length = 0, .diameter = 1e-9}};
+    for (const char* axis = walls; *axis; ++axis)
+      scene.walls.push_back({.axis = std::string(1, *axis), .side = "both"});
+    const std::array<bool, 3> periodic = scene.periodic();
+    const IdealPairs ideal(setting_of(scene));
+    const double reach = std::min(ideal.reach(), 3.0);
+    constexpr std::size_t few = 8;
+    std::vector<double> borders, counts(few);
+    for (std::size_t n = 0; n <= few; ++n) borders.push_back(reach * double(n) / few);
+    constexpr int pairs = 200000;
+    for (int n = 0; n < pairs; ++n) {
+      double square = 0;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double d = std::abs(random.uniform(0, box[axis]) - random.uniform(0, box[axis]));
+        square += std::pow(periodic[axis] ? std::min(d, box[axis] - d) : d, 2);
+      }
+      const double place = std::sqrt(square) / reach * few;
+      if (place < few) ++counts[static_cast<std::size_t>(place)];
+    }
+    const std::vector<double> shares = ideal.shares(0, 0, borders);
+    for (std::size_t n = 0; n < few; ++n) {
+      EXPECT_NEAR(counts[n] / pairs, shares[n], 4.5 * std::sqrt(shares[n] / pairs) + 1e-9)
+          << walls << " " << n;
     }
   }
 }

@@ -346,6 +346,21 @@ TEST(Shift, AddsAndSubtracts) {
   EXPECT_EQ(-a, (Shift{-1, 2, -3}));
 }
 
+// However few there are of each.
+TEST(MeanFreeTime, OfEqualNeedlesDoesNotDependOnTheirSpecies) {
+  constexpr double volume = 7, t_tr = 0.7, t_rot = 1.3;
+  const double one = mean_free_time({.density = 5 / volume, .t_tr = t_tr, .t_rot = t_rot, .k = 3});
+  for (const std::vector<std::uint64_t>& counts :
+       {std::vector<std::uint64_t>{3, 2}, {4, 1}, {1, 1, 1, 1, 1}}) {
+    std::vector<Species> species;
+    for (const std::uint64_t count : counts)
+      species.push_back({.name = {}, .count = count, .k = 3});
+    const std::vector<SpeciesTemperatures> at(counts.size(), {t_tr, t_rot});
+    EXPECT_NEAR(mean_free_time(Composition(species, {}), volume, at), one, 1e-14 * one)
+        << counts.size();
+  }
+}
+
 // The engine's own integration, which does not depend on the libm, agrees with the theory.
 TEST(MeanFreeTime, AgreesWithTheTheory) {
   Random random(seed);

@@ -68,6 +68,21 @@ class ToGsd(unittest.TestCase):
             with gsd.hoomd.open(path, "rb") as file:
                 self.assertEqual(file[0].log["periodic"].tolist(), [1, 1, last])
 
+    def test_bodies_beyond_the_edges(self):
+        scene = support.gas(forces={"gravity": [0, 0, -1]})
+        scene["walls"] = [{"axis": "z", "side": "low"}]
+        out = self.path("open.gsd")
+        with needlework.Simulation(scene) as sim:
+            sim.run(time=5)
+            needlework.to_gsd(sim, out)
+            position, box = sim.position, sim.box
+        self.assertGreater(position[:, 2].max(), box[2])
+        with gsd.hoomd.open(out, "rb") as file:
+            log, found = file[0].log, file[0].particles.position
+            self.assertTrue(np.all(np.abs(found) <= file[0].configuration.box[:3] / 2))
+            np.testing.assert_array_equal(log["edges"], box)
+            np.testing.assert_allclose(found + log["centre"], position, atol=1e-5)
+
     def test_one_frame(self):
         out = self.path("last.gsd")
         with needlework.read(self.run) as run:

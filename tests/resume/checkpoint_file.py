@@ -164,6 +164,7 @@ class Fields:
         self.optional("output.series_every", self.f64)
         self.sequence("output.frame_times", self.f64)
         self.optional("output.frames_per_decade", self.f64)
+        self.optional("output.frames_every", self.f64)
         self.sequence("output.observables", self.text)
         self.optional("output.grid", lambda name: self.several(name, "i32", 3))
         self.one("output.events", "u8")

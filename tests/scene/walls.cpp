@@ -195,11 +195,17 @@ TEST(BadWalls, DoNotGoTogether) {
       {"forces.gravity = [0, 0, -1]\n" + wall("z", "high"), "line 7: walls.side = 'high': " + open},
       {"forces.gravity = [0, 0, 1]\n" + wall("z", "low"), "line 7: walls.side = 'low': " + open},
       {"forces.gravity = [0, 0, -1]\n",
-       "line 4: forces.gravity = [0, 0, -1]: expected none along z, which is periodic: there "
-       "gravity does nothing to the motion of needles relative to each other"},
+       "line 4: forces.gravity = [0, 0, -1]: expected none along z, which is periodic, or a wall "
+       "with a temperature along another axis: thermal walls brake along their face, and without "
+       "one all needles would gain speed along z together for ever"},
       {"forces.gravity = [1, 0, -1]\n" + wall("z", "low"),
-       "line 4: forces.gravity = [1, 0, -1]: expected none along x, which is periodic: there "
-       "gravity does nothing to the motion of needles relative to each other"},
+       "line 4: forces.gravity = [1, 0, -1]: expected none along x, which is periodic, or a wall "
+       "with a temperature along another axis: thermal walls brake along their face, and without "
+       "one all needles would gain speed along x together for ever"},
+      {"until.energy_ratio = 0.1\nforces.gravity = [1, 0, 0]\n" +
+           wall("z", "both", "temperature = 2\n"),
+       "line 4: until.energy_ratio = 0.1: expected another end, such as time: gravity along a "
+       "periodic axis does work all the time, which thermal walls take out"},
   };
   for (const auto& [text, expected] : cases)
     EXPECT_EQ(message(with_walls(text)), "s.toml: " + expected) << text;
@@ -207,7 +213,9 @@ TEST(BadWalls, DoNotGoTogether) {
        {wall("z", "low") + wall("z", "high"), wall("x", "both") + wall("y", "both"),
         "forces.gravity = [0, 0, -1]\n" + wall("z", "low"),
         "forces.gravity = [0, 0, 1]\n" + wall("z", "high"),
-        "forces.gravity = [1, 0, 1]\n" + wall("z", "both") + wall("x", "high")}) {
+        "forces.gravity = [1, 0, 1]\n" + wall("z", "both") + wall("x", "high"),
+        "forces.gravity = [1, 0, 0]\n" + wall("z", "both", "temperature = 2\n"),
+        "forces.gravity = [1, 2, -1]\n" + wall("z", "low", "temperature = 2\n")}) {
     EXPECT_EQ(message(with_walls(good)), "no error") << good;
   }
 }

@@ -68,6 +68,7 @@ inline void expect_to_continue(const Scene& scene, double saved, double end, con
   rest.advance(until_time(end));
   EXPECT_EQ(rest.trajectory_hash(), whole.trajectory_hash());
   EXPECT_EQ(rest.virial(), whole.virial());
+  EXPECT_EQ(rest.t_tr_integral(), whole.t_tr_integral());
   EXPECT_THROW(Simulation(other, half.checkpoint()), InputError);
 }
 

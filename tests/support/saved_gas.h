@@ -9,6 +9,7 @@
 #include "src/archive/archive.h"
 #include "src/engine/energy_shares.h"
 #include "src/engine/tally.h"
+#include "src/engine/temperature_integral.h"
 #include "src/physics/gas.h"
 #include "src/physics/transfer.h"
 
@@ -71,6 +72,7 @@ struct SavedGas {
     archive(tally.collisions, tally.tc_collisions, tally.energy, tally.hash, tally.counters,
             tally.instant, tally.at_instant);
     energy_shares.transfer(archive, 0, 0);  // without walls and driving
+    temperature_integral.transfer(archive);
   }
 
   bool has_contact_time;
@@ -83,6 +85,7 @@ struct SavedGas {
   double drift_of_windows = 0;
   Tally tally;
   EnergyShares energy_shares;
+  TemperatureIntegral temperature_integral;
 };
 
 }  // namespace test

@@ -109,6 +109,7 @@ void NeedleReader::read(const Row& row) {
     row.reject(fmt::format("{} columns: expected {}", row.fields.size(), columns_.count));
   }
   State& state = configuration_.state;
+  if (columns_.edges) take_edges(row);
   read_rotation(row);
   read_position(row);
   state.velocity.push_back(read_vector(row, *columns_.velocity, "velocity"));
@@ -132,6 +133,21 @@ void NeedleReader::read(const Row& row) {
   read_common(row, columns_.diameter, "diameter", species, material.diameter);
   read_common(row, columns_.mass, "mass", species, material.mass);
   read_common(row, columns_.k, "k", species, material.k);
+}
+
+// Positions then count from the walls.
+void NeedleReader::take_edges(const Row& row) {
+  State& state = configuration_.state;
+  const Vector edges = read_vector(row, *columns_.edges, "edges");
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (state.periodic[axis]) continue;
+    if (!(edges[axis] > 0) || (!state.position.empty() && edges[axis] != state.box[axis])) {
+      row.reject(fmt::format("edge {} = {}: expected a number > 0, the same in all rows",
+                             "xyz"[axis], edges[axis]));
+    }
+    state.box[axis] = edges[axis];
+    columns_.lower[axis] = 0;
+  }
 }
 
 void NeedleReader::read_position(const Row& row) {
@@ -358,6 +374,17 @@ void set_material(Material& material, std::string_view name, std::string_view va
     }
     if (numbers.empty()) row.reject(fmt::format("{} =: expected a number", name));
   }
+}
+
+std::array<double, 3> read_edges(std::string_view value, const Row& row) {
+  const std::vector<std::string_view> items = items_of(value);
+  std::array<double, 3> out{};
+  bool good = items.size() == 3;
+  for (std::size_t axis = 0; good && axis < 3; ++axis) {
+    good = read_decimal(items[axis], out[axis]) == std::errc() && out[axis] > 0;
+  }
+  if (!good) row.reject(fmt::format("edges = {}: expected three numbers > 0", quotation(value)));
+  return out;
 }
 
 std::string text_of(const Material& material) {

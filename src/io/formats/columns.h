@@ -24,6 +24,7 @@ struct Columns {
   std::int64_t first_id = 0;  ///< the id in the file of the needle whose id is 0
   std::optional<std::size_t> length, mass, k, diameter;
   std::optional<VectorColumns> force;  ///< not read by NeedleReader
+  std::optional<VectorColumns> edges;  ///< of a box whose bounds enclose more; the same in all rows
   std::optional<std::size_t> species;
   std::int64_t first_species = 0;    ///< the number in the file of the species whose index is 0
   bool scaled = false;               ///< positions are multiples of the edges, from `lower`
@@ -69,6 +70,7 @@ class NeedleReader {
     double along;  // what was projected away [1 / time]
   };
 
+  void take_edges(const Row& row);
   void read_position(const Row& row);
   void read_rotation(const Row& row);
   void require_distinct_ids(const std::string& path) const;
@@ -90,5 +92,8 @@ void set_material(Material& material, std::string_view name, std::string_view va
 /// some, "walls=z-low,z-high wall_epsilon=1,0.9" and "gravity=0,0,-1". Temperature and motion of
 /// walls are left out.
 std::string text_of(const Material& material);
+
+/// "5,5,6", three numbers above 0: the edges of a box whose bounds enclose more.
+std::array<double, 3> read_edges(std::string_view value, const Row& row);
 
 }  // namespace needlework::io

@@ -1,14 +1,17 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "needlework/error.h"
 #include "src/io/decimal.h"
+#include "src/io/formats/bounds.h"
 #include "src/io/formats/columns.h"
 #include "src/io/formats/input_text.h"
 #include "src/io/formats/lammps.h"
@@ -57,6 +60,7 @@ class DataReader {
   std::string path_;
   std::int64_t count_ = -1;
   std::array<double, 3> lower_{};
+  std::optional<std::array<double, 3>> edges_;  // where the bounds are beyond them
   std::vector<Row> atoms_;
   std::unordered_map<std::string_view, Row> velocities_;  // by id
   Configuration configuration_;
@@ -82,6 +86,13 @@ Configuration DataReader::read() {
   require(count_ == 0 || !velocities_.empty(), "Velocities");
   for (const Scene::Wall& wall : configuration_.material.walls) {
     configuration_.state.periodic[static_cast<std::size_t>(wall.axis[0] - 'x')] = false;
+  }
+  if (edges_) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (configuration_.state.periodic[axis]) continue;
+      configuration_.state.box[axis] = (*edges_)[axis];
+      lower_[axis] = 0;
+    }
   }
   // All rows have as many columns as the first.
   const bool with_images = !atoms_.empty() && atoms_[0].fields.size() > atom_columns;
@@ -115,8 +126,9 @@ void DataReader::read_title() {
   for (const std::string_view word : lines_.fields()) {
     const std::size_t equals = word.find('=');
     if (equals == word.npos) continue;
-    set_material(configuration_.material, word.substr(0, equals), word.substr(equals + 1),
-                 lines_.row());
+    const std::string_view name = word.substr(0, equals), value = word.substr(equals + 1);
+    if (name == "edges") edges_ = read_edges(value, lines_.row());
+    set_material(configuration_.material, name, value, lines_.row());
   }
 }
 
@@ -200,11 +212,14 @@ class DataWriter : public FrameWriter {
 
   void add(const Frame& frame) override {
     const State& state = frame.state;
+    const Bounds bounds = bounds_of(state, farthest_end(all_));
     file_.print("LAMMPS data file of needles: {}", title_);
+    if (!bounds.are_edges) file_.print(" edges={}", fmt::join(state.box, ","));
     if (frame.time) file_.print(" time={}", *frame.time);
     file_.print("\n\n{} atoms\n{} atom types\n\n", state.size(), all_.size());
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      file_.print("0 {} {}lo {}hi\n", state.box[axis], "xyz"[axis], "xyz"[axis]);
+      file_.print("{} {} {}lo {}hi\n", bounds.low[axis], bounds.high[axis], "xyz"[axis],
+                  "xyz"[axis]);
     }
     write_atoms(state);
     file_.print("\nVelocities\n\n");

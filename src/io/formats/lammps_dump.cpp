@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -7,6 +8,7 @@
 #include <optional>
 #include <span>
 
+#include "src/io/formats/bounds.h"
 #include "src/io/formats/columns.h"
 #include "src/io/formats/input_text.h"
 #include "src/io/formats/lammps.h"
@@ -157,6 +159,7 @@ Columns read_columns(const Lines& lines) {
   columns.species = find("type");
   columns.first_species = 1;
   columns.force = find_vector("fx", "fy", "fz");
+  columns.edges = find_vector("edgex", "edgey", "edgez");
   require_all_vectors(columns, dump_names, lines.row());
   return columns;
 }
@@ -206,13 +209,17 @@ class DumpWriter : public FrameWriter {
   void add(const Frame& frame) override {
     const State& state = frame.state;
     const auto boundary = [&](std::size_t axis) { return lammps_boundary(state, material_, axis); };
-    file_.print("{}\n{}\nITEM: NUMBER OF ATOMS\n{}\n{} {} {} {}\n0 {}\n0 {}\n0 {}\n",
-                begin_of_frame, frame.number, state.size(), begin_of_box, boundary(0), boundary(1),
-                boundary(2), state.box[0], state.box[1], state.box[2]);
+    const Bounds bounds = bounds_of(state, farthest_end(species_of(material_)));
+    file_.print("{}\n{}\nITEM: NUMBER OF ATOMS\n{}\n{} {} {} {}\n", begin_of_frame, frame.number,
+                state.size(), begin_of_box, boundary(0), boundary(1), boundary(2));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      file_.print("{} {}\n", bounds.low[axis], bounds.high[axis]);
+    }
+    const std::string edges = bounds.are_edges ? "" : fmt::format(" {}", fmt::join(state.box, " "));
     file_.print(
         "{} id type x y z ix iy iz vx vy vz mux muy muz omegax omegay omegaz quatw quati quatj "
-        "quatk shapex shapey shapez{}\n",
-        begin_of_atoms, names_);
+        "quatk shapex shapey shapez{}{}\n",
+        begin_of_atoms, names_, bounds.are_edges ? "" : " edgex edgey edgez");
     for (std::size_t i = 0; i < state.size(); ++i) {
       const auto& r = state.position[i];
       const auto& v = state.velocity[i];
@@ -221,10 +228,10 @@ class DumpWriter : public FrameWriter {
       const auto image = state.image.empty() ? std::array<std::int32_t, 3>{} : state.image[i];
       const auto q = quaternion_of(u);
       const std::size_t species = species_at(state, i);
-      file_.print("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}{}\n",
+      file_.print("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}{}{}\n",
                   std::int64_t{id_of(state, i)} + 1, species + 1, r[0], r[1], r[2], image[0],
                   image[1], image[2], v[0], v[1], v[2], u[0], u[1], u[2], w[0], w[1], w[2], q[0],
-                  q[1], q[2], q[3], endings_.at(species));
+                  q[1], q[2], q[3], endings_.at(species), edges);
     }
   }
   void publish() override { file_.publish(); }

@@ -182,6 +182,12 @@ std::vector<double> diameters_of(const Material& material) {
   return diameters;
 }
 
+double farthest_end(const std::vector<Species>& all) {
+  double longest = 0;
+  for (const Species& each : all) longest = std::max(longest, each.extent());
+  return longest / 2;
+}
+
 bool has_width(const Material& material) { return !material.diameter.empty(); }
 
 bool are_spheres(const Material& material) {

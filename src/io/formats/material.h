@@ -46,6 +46,8 @@ std::vector<double> diameters_of(const Material& material);
 /// Whether they are rods of finite width or spheres, and whether all of them are spheres.
 bool has_width(const Material& material);
 bool are_spheres(const Material& material);
+/// Half the longest extent of a species. [L]
+double farthest_end(const std::vector<Species>& all);
 /// Whether not all species have the same mass and moment of inertia.
 bool differ_in_inertia(const Material& material);
 

@@ -40,7 +40,7 @@ function pressures(run) {
 function sourcesOfEnergy(run) {
   const { datasets } = run.groups.energy_budget;
   const walls = datasets.walls ? wallsOf(run).map((wall, n) => [`wall at ${sideName(wall)}`, column(datasets.walls, n)]) : [];
-  const single = [["pairs", "collisions"], ["thermostat", "thermostat"], ["kicks", "kicks"], ["velocities_set", "velocities set"]]
+  const single = [["pairs", "collisions"], ["thermostat", "thermostat"], ["kicks", "kicks"], ["gravity", "gravity"], ["velocities_set", "velocities set"]]
     .filter(([name]) => datasets[name])
     .map(([name, text]) => [text, column(datasets[name])]);
   return [...single, ...walls].filter(([text, values]) => text !== "velocities set" || values.some((value) => value !== 0));
