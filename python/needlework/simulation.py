@@ -6,7 +6,7 @@ import operator
 import os
 import warnings
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Optional
 
 import numpy as np
@@ -20,7 +20,7 @@ from .data import Data
 from .errors import Error, InputError
 from .progress import progress_line
 from .scene_text import SceneLike, scene_text
-from .state import State
+from .state import NUMBERS_OF_BODIES, Bodies, State
 from .values import NotPickled, Values, html_table
 
 Callback = Callable[[np.ndarray], object]
@@ -154,6 +154,9 @@ class Simulation(NotPickled):
         Which of the scene's species each needle is of, from 0 in their order. Counts of the
         scene, where given, must agree. If it is not given, ids go through the species in their
         order.
+    bodies : mapping, optional
+        What the species are made of: length, diameter, mass and k of each, and name. It is taken
+        where the scene is silent; what the scene says otherwise is an error.
     image : array [N, 3] of whole numbers, optional
         Boxes crossed by these needles before, from which their images go on; 0 if not given.
     id : array [N] of whole numbers, optional
@@ -187,10 +190,10 @@ class Simulation(NotPickled):
                  velocity: ArrayLike | None = None, orientation: ArrayLike | None = None,
                  angular_velocity: ArrayLike | None = None, image: ArrayLike | None = None,
                  id: ArrayLike | None = None, species: ArrayLike | None = None,
-                 force: bool = False) -> None:
+                 bodies: Mapping[str, ArrayLike] | None = None, force: bool = False) -> None:
         text, name, has_lines = scene_text(scene)
         state = _state({"position": position, "velocity": velocity, "orientation": orientation,
-                        "angular_velocity": angular_velocity}, image, id, species)
+                        "angular_velocity": angular_velocity}, image, id, species, bodies)
         self._run = _core.Run(text, os.fsencode(name), has_lines, state, bool(force))
         for message in self._run.warnings():
             warnings.warn(message, SceneWarning, stacklevel=2)
@@ -388,7 +391,7 @@ class Simulation(NotPickled):
         """All needles: the arrays position, velocity, orientation, angular_velocity, image, id and
         species by name, from which ``Simulation(scene, **state)`` starts."""
         if self._copy is None:
-            self._copy = State.of(self._run.state())
+            self._copy = State.of(self._run.state(), Bodies.of(self._facts.bodies))
         return self._copy
 
     @property
@@ -591,7 +594,8 @@ def _callback_of(simulation: Simulation, name: str) -> Callback:
 
 
 def _state(arrays: dict[str, ArrayLike | None], image: ArrayLike | None, ids: ArrayLike | None,
-           species: ArrayLike | None) -> tuple[np.ndarray | None, ...] | None:
+           species: ArrayLike | None, bodies: Mapping[str, ArrayLike] | None
+           ) -> tuple[np.ndarray | tuple | None, ...] | None:
     """The arrays of an initial state, or None if there are none."""
     given = {name: values for name, values in arrays.items() if values is not None}
     if not given and image is None and ids is None and species is None:
@@ -609,7 +613,22 @@ def _state(arrays: dict[str, ArrayLike | None], image: ArrayLike | None, ids: Ar
             None if ids is None else
             whole_numbers("id", ids, (count,), 0, 2**32 - 1).astype(np.uint32),
             None if species is None else
-            whole_numbers("species", species, (count,), 0, 254).astype(np.uint8))
+            whole_numbers("species", species, (count,), 0, 254).astype(np.uint8),
+            _columns_of(bodies or {}))
+
+
+def _columns_of(bodies: Mapping[str, ArrayLike]) -> tuple[list, ...]:
+    """The columns of bodies, empty where they are not known."""
+    names = ("name", *NUMBERS_OF_BODIES)
+    unknown = set(bodies) - set(names)
+    if unknown:
+        raise InputError(f"bodies: {', '.join(sorted(unknown))}: expected {', '.join(names)}")
+    try:
+        return ([str(name) for name in bodies.get("name", ())],
+                *([float(value) for value in np.ravel(bodies.get(name, ()))]
+                  for name in NUMBERS_OF_BODIES))
+    except (TypeError, ValueError):
+        raise InputError("bodies: expected a number for each species") from None
 
 
 def _number(name: str, value: float | None) -> float | None:

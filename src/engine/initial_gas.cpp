@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 #include <vector>
 
 #include "needlework/error.h"
@@ -52,6 +53,25 @@ void check_image(const Gas& gas, Needle i) {
   }
 }
 
+// A state that was read from a file is not run as one of other bodies.
+void require_same_bodies(const Composition& composition, const Bodies& bodies) {
+  for (const auto& [key, known, value] : {std::tuple("length", &Bodies::length, &Species::length),
+                                          {"diameter", &Bodies::diameter, &Species::diameter},
+                                          {"mass", &Bodies::mass, &Species::mass},
+                                          {"k", &Bodies::k, &Species::k}}) {
+    const std::vector<double>& expected = bodies.*known;
+    if (expected.empty()) continue;
+    check_size(expected.size(), composition.size(), "species");
+    for (std::size_t n = 0; n < expected.size(); ++n) {
+      const double given = composition[n].*value;
+      const bool counts = composition[n].turns() || value != &Species::k;
+      if (!counts || std::abs(given - expected[n]) <= 1e-12 * expected[n]) continue;
+      throw InputError(fmt::format("state: bodies of {} = {}: expected {}, as in the scene", key,
+                                   expected[n], given));
+    }
+  }
+}
+
 // The species of the scene with the counts of the state.
 Composition composition_of(const Scene& scene, const State& initial) {
   Composition composition = scene.composition();
@@ -61,6 +81,7 @@ Composition composition_of(const Scene& scene, const State& initial) {
         fmt::format("state: {} needles: expected {}, as the species of the scene count",
                     initial.size(), composition.count()));
   }
+  require_same_bodies(composition, initial.bodies);
   return composition;
 }
 

@@ -261,6 +261,27 @@ TEST(Serve, RefusesBatchesAndFieldsThatMeanNothing) {
   EXPECT_EQ(answers[7]["collisions"], 0);
 }
 
+TEST(Serve, HandsBodiesOverWithAState) {
+  const char* rods =
+      "needles.box = 9\n[[species]]\nname = \"rod\"\ncount = 4\nlength = 2\nmass = 4\nk = 2\n"
+      "diameter = 0.5\n[[species]]\nname = \"ball\"\ncount = 3\nlength = 0\ndiameter = 1\n";
+  auto first = answers_to({{{"do", "create"}, {"scene", rods}},
+                           {{"do", "totals"}, {"simulation", 1}},
+                           {{"do", "state"}, {"simulation", 1}}});
+  Json again = first[2];
+  for (const char* field : {"ok", "time", "needles"}) again.erase(field);
+  again["do"] = "create";
+  again["scene"] = "needles.box = 9";
+  Json needles = again, wrong = again;
+  needles["scene"] = "needles = { box = 9, k = 6 }";
+  wrong["bodies"] = Json{{"colour", {1}}};
+  auto second = answers_to({again, {{"do", "totals"}, {"simulation", 1}}, needles, wrong});
+  EXPECT_EQ(second[1]["t_rot"], first[1]["t_rot"]) << second[1];
+  EXPECT_EQ(second[1]["species"][1]["name"], "ball");
+  EXPECT_EQ(second[2]["code"], 3) << second[2];
+  EXPECT_EQ(second[3]["code"], 2) << second[3];
+}
+
 TEST(Serve, SendsTheArraysOfAStateThatAreChosen) {
   auto answers =
       answers_to({create(),
