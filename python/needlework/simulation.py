@@ -324,11 +324,13 @@ class Simulation(NotPickled):
         listen(None if callback is None else _callback_of(self, name), size, rows)
         setattr(self, name, callback)
 
-    def set_velocities(self, velocity: ArrayLike, angular_velocity: ArrayLike) -> None:
+    def set_velocities(self, velocity: ArrayLike,
+                       angular_velocity: ArrayLike | None = None) -> None:
         """Replaces the velocities of all needles, as arrays [N, 3] in order of id.
 
-        The part of an angular velocity along the director is removed. Counts, the hash and the
-        energy that energy_ratio refers to are kept. Costs about as much as a new simulation.
+        Without angular velocities these are set to 0, with a SceneWarning. The part of an angular
+        velocity along the director is removed. Counts, the hash and the energy that energy_ratio
+        refers to are kept. Costs about as much as a new simulation.
 
         The output file says when that was and by how much the energy changed
         (``Recording.velocities_set``), and kinetic theory is left out of it from then on. A sample
@@ -336,9 +338,12 @@ class Simulation(NotPickled):
         velocities; call sample() before this for one with the old ones.
         """
         count = self._facts.count
+        given = np.zeros((count, 3)) if angular_velocity is None else angular_velocity
         self._forget()
         self._run.set_velocities(rows_of_vectors("velocity", velocity, count),
-                                 rows_of_vectors("angular_velocity", angular_velocity, count))
+                                 rows_of_vectors("angular_velocity", given, count))
+        if angular_velocity is None and np.any(self._facts.bodies["length"]):
+            warnings.warn(_core.no_rotation_given, SceneWarning, stacklevel=2)
         self._note_velocities_set()
 
     def _note_velocities_set(self) -> None:

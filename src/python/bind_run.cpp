@@ -67,6 +67,7 @@ std::string limited(Run& run, OptionalNumber time, std::optional<std::uint64_t> 
 }  // namespace
 
 void add_run(py::module_& module) {
+  module.attr("no_rotation_given") = runs::no_rotation_given;
   py::class_<Run>(module, "Run")
       .def(py::init(&make_run))
       .def_static("resume", [](const std::string& file) { return std::make_unique<Run>(file); })

@@ -388,11 +388,13 @@ Json Requests::velocities(const Json& request, const Connection&) {
   runs::PreparedRun& run = run_of(request);
   const auto velocity = vectors_in(request, "velocity");
   const auto angular_velocity = vectors_in(request, "angular_velocity");
-  if (!velocity || !angular_velocity) {
-    throw RequestError("velocity, angular_velocity: expected both");
-  }
-  run.set_velocities(*velocity, *angular_velocity);
-  return summary_of(run);
+  if (!velocity) throw RequestError("velocity: expected the velocities of all needles");
+  run.set_velocities(
+      *velocity, angular_velocity.value_or(std::vector<std::array<double, 3>>(velocity->size())));
+  Json answer = summary_of(run);
+  if (!angular_velocity && !run.simulation().composition().are_spheres())
+    answer["warning"] = runs::no_rotation_given;
+  return answer;
 }
 
 Json Requests::predict(const Json& request, const Connection&) { return first_contacts(request); }

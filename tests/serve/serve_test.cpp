@@ -176,6 +176,14 @@ TEST(Serve, ReplacesVelocities) {
   EXPECT_EQ(answers[2]["stop"], "nothing_can_happen");
 }
 
+TEST(Serve, StopsAllRotationWithAWordWhereNoneIsGiven) {
+  const std::vector<std::array<double, 3>> ones(60, {1, 0, 0});
+  auto answers = answers_to(
+      {create(), {{"do", "velocities"}, {"simulation", 1}, {"velocity", text_of(ones)}}});
+  EXPECT_EQ(answers[1]["t_rot"], 0) << answers[1];
+  EXPECT_EQ(answers[1]["warning"], "angular_velocity: not given: those of all needles are 0 now");
+}
+
 // Rows of an array in an answer.
 template <class Row>
 std::vector<Row> rows_in(Json& answer, const char* name) {
