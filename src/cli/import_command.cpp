@@ -9,6 +9,7 @@
 #include "needlework/error.h"
 #include "needlework/h5md.h"
 #include "needlework/parse.h"
+#include "needlework/simulation.h"
 #include "src/cli/file_kind.h"
 #include "src/cli/messages.h"
 #include "src/io/formats/read_configuration.h"
@@ -78,6 +79,15 @@ void warn_of_roundings(const io::Configuration& read, const std::string& path) {
       fmt::format("{}: {} of {} needles were projected: their directors were not of length 1, or "
                   "their angular velocities not normal to them, by up to {:.2g}, as rounding does",
                   printable(path), roundings.needles, read.state.size(), roundings.largest));
+}
+
+// Such as bodies that overlap, which only an edited state will not have.
+void warn_of_bad_state(const Scene& scene, const State& state, const std::string& path) {
+  try {
+    require_simulable(scene, state);
+  } catch (const InputError& error) {
+    print_warning(fmt::format("{}: cannot be run as it is: {}", printable(path), error.what()));
+  }
 }
 
 // The species with the counts of their needles.

@@ -154,6 +154,9 @@ void require_inside(const Scene& scene, const Gas& gas) {
 void require_room_for_rods(const Scene& scene, const Gas& gas) {
   if (!gas.composition.has_width()) return;
   RodGrid grid(gas.composition, gas.box, scene.periodic(), gas.size());
+  std::size_t pairs = 0;
+  RodGrid::Overlap worst{};
+  std::array<std::uint32_t, 2> worst_ids{};
   for (Needle i{0}; i < gas.size(); ++i) {
     StopRequest::check_in_turn(i);
     const Record& record = gas.records[i];
@@ -163,13 +166,21 @@ void require_room_for_rods(const Scene& scene, const Gas& gas) {
     }
     const std::array<double, 3> centre = to_array(record.flight.r),
                                 director = to_array(record.flight.u);
-    if (const auto overlap = grid.overlap(centre, director, record.species, gas.touch_tolerance()))
-      throw InputError(fmt::format(
-          "state: rods {} and {} overlap: their axes are {:.4g} apart, less than {:.10g}",
-          gas.ids[Needle(overlap->other)].value, gas.ids[i].value, overlap->distance,
-          overlap->expected));
+    for (const RodGrid::Overlap& overlap :
+         grid.overlaps(centre, director, record.species, gas.touch_tolerance())) {
+      ++pairs;
+      if (pairs > 1 && overlap.expected - overlap.distance <= worst.expected - worst.distance)
+        continue;
+      worst = overlap;
+      worst_ids = {gas.ids[Needle(overlap.other)].value, gas.ids[i].value};
+    }
     grid.enter(centre, director, record.species);
   }
+  if (pairs == 0) return;
+  throw InputError(
+      fmt::format("state: {}rods {} and {} overlap: their axes are {:.4g} apart, less than {:.10g}",
+                  pairs == 1 ? "" : fmt::format("{} pairs of rods overlap; deepest, ", pairs),
+                  worst_ids[0], worst_ids[1], worst.distance, worst.expected));
 }
 
 }  // namespace

@@ -73,9 +73,10 @@ std::size_t RodGrid::index_of(const std::array<std::int64_t, 3>& cell) const {
   return static_cast<std::size_t>((cell[2] * counts_[1] + cell[1]) * counts_[0] + cell[0]);
 }
 
-std::optional<RodGrid::Overlap> RodGrid::overlap(const std::array<double, 3>& centre,
-                                                 const std::array<double, 3>& director,
-                                                 SpeciesIndex species, double tolerance) const {
+template <class Visit>
+void RodGrid::visit_overlaps(const std::array<double, 3>& centre,
+                             const std::array<double, 3>& director, SpeciesIndex species,
+                             double tolerance, Visit&& visit) const {
   const kernels::Flight flight = at_rest(centre, director);
   const std::array<std::int64_t, 3> cell = cell_of(flight.r);
   // The cells around along each axis, each once.
@@ -94,7 +95,6 @@ std::optional<RodGrid::Overlap> RodGrid::overlap(const std::array<double, 3>& ce
     return periodic_[axis] ? box_[axis] * std::nearbyint(apart / box_[axis]) : 0;
   };
   const Species& its = composition_[species];
-  std::optional<Overlap> out;
   for (std::size_t z = 0; z < count[2]; ++z) {
     for (std::size_t y = 0; y < count[1]; ++y) {
       for (std::size_t x = 0; x < count[0]; ++x) {
@@ -116,13 +116,30 @@ std::optional<RodGrid::Overlap> RodGrid::overlap(const std::array<double, 3>& ce
           pair.half_second = 0.5 * others.length;
           pair.distance = distance;
           const double gap = gap_of(pair, nearest, reach);
-          if (gap >= -tolerance || (out && out->other < i)) continue;
-          out = Overlap{i, distance + gap, distance};
+          if (gap < -tolerance) visit(Overlap{i, distance + gap, distance});
         }
       }
     }
   }
-  return out;
+}
+
+std::optional<RodGrid::Overlap> RodGrid::overlap(const std::array<double, 3>& centre,
+                                                 const std::array<double, 3>& director,
+                                                 SpeciesIndex species, double tolerance) const {
+  std::optional<Overlap> first;
+  visit_overlaps(centre, director, species, tolerance, [&](const Overlap& overlap) {
+    if (!first || overlap.other < first->other) first = overlap;
+  });
+  return first;
+}
+
+std::vector<RodGrid::Overlap> RodGrid::overlaps(const std::array<double, 3>& centre,
+                                                const std::array<double, 3>& director,
+                                                SpeciesIndex species, double tolerance) const {
+  std::vector<Overlap> all;
+  visit_overlaps(centre, director, species, tolerance,
+                 [&](const Overlap& overlap) { all.push_back(overlap); });
+  return all;
 }
 
 void RodGrid::enter(const std::array<double, 3>& centre, const std::array<double, 3>& director,
