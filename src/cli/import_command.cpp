@@ -210,9 +210,14 @@ collisions_per_needle = {}  # not from the file: choose an end
       assumed_collisions_per_needle);
 }
 
-io::Configuration read_configuration(const std::string& path) {
+std::optional<std::size_t> frame_number(const std::string& frame) {
+  if (frame == "last") return {};
+  return frame == "first" ? 0 : std::stoull(frame);
+}
+
+io::Configuration read_configuration(const ImportArguments& arguments) {
   try {
-    return io::read_configuration(path);
+    return io::read_configuration(arguments.from, frame_number(arguments.frame));
   } catch (const InputError& error) {
     throw InputError(printable(error.what()));
   }
@@ -264,7 +269,7 @@ void make_folder(const std::string& folder) {
 
 int run(const ImportArguments& arguments) {
   const io::Configuration read = read_file(arguments.from, FileKind::configuration,
-                                           [&] { return read_configuration(arguments.from); });
+                                           [&] { return read_configuration(arguments); });
   const fs::path folder(arguments.folder);
   const std::string scene_file = (folder / "scene.toml").string();
   const std::string state_file = (folder / "state.h5").string();
