@@ -20,7 +20,7 @@ def turned(q):
     return np.stack([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x**2 + y**2)], axis=1)
 
 
-class ToGsd(unittest.TestCase):
+class GsdFiles(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
@@ -143,6 +143,53 @@ class ToGsd(unittest.TestCase):
             np.testing.assert_allclose(particles.moment_inertia[:, 0],
                                        [3 * 0.25 / 4] * 20 + [4 / 12] * 10, rtol=1e-6)
             self.assertEqual([shape["c"] for shape in particles.type_shapes], [0.25, 1])
+
+    def test_a_frame_is_read_back(self):
+        out = self.path("mixture.gsd")
+        rods = {"needles": {"box": 9}, "species": [
+            {"name": "rod", "count": 10, "length": 3, "diameter": 0.5, "inertia": 2},
+            {"name": "ball", "count": 5, "length": 0, "diameter": 1.5, "mass": 0.1}]}
+        sim = needlework.Simulation(rods)
+        needlework.to_gsd(sim, out)
+        frame = needlework.from_gsd(out)
+        again = needlework.Simulation(rods, **frame.state)
+        np.testing.assert_array_equal(frame.box, [9, 9, 9])
+        for name in ("position", "velocity", "orientation", "angular_velocity"):
+            np.testing.assert_allclose(getattr(again, name), getattr(sim, name), atol=1e-5)
+        self.assertEqual(dict(frame.state.bodies)["name"], ("rod", "ball"))
+        silent = needlework.Simulation({"needles": {"box": 9}}, **frame.state)
+        self.assertAlmostEqual(silent.totals.t_rot, sim.totals.t_rot, places=5)
+        with self.assertRaisesRegex(needlework.InputError, "frame 7: expected one of those"):
+            needlework.from_gsd(out, 7)
+
+    def test_rotation_of_hoomd_blue_is_read(self):
+        snapshot = gsd.hoomd.Snapshot()
+        snapshot.configuration.box = [6, 6, 6, 0, 0, 0]
+        particles = snapshot.particles
+        particles.N = 1
+        particles.types = ["A"]
+        particles.type_shapes = [{"type": "Ellipsoid", "a": 0.1, "b": 0.1, "c": 1.0}]
+        particles.typeid = [0]
+        particles.position, particles.velocity = [[-2, 0, 1]], [[1, 0, 0]]
+        particles.mass, particles.moment_inertia = [3.0], [[0.5, 0.5, 0.1]]
+        half = np.sqrt(0.5)
+        q = np.array([half, half, 0, 0])  # a quarter turn about x: the director is -y
+        particles.orientation = [q]
+        # 2 q (0, L) with L = (1, 2, 0.3) in the frame of the particle
+        w, axis, momentum = q[0], q[1:], np.array([1, 2, 0.3])
+        particles.angmom = [[-2 * axis @ momentum, *2 * (w * momentum + np.cross(axis, momentum))]]
+        out = self.path("hoomd.gsd")
+        with gsd.hoomd.open(out, "wb") as file:
+            file.append(snapshot)
+        frame = needlework.from_gsd(out)
+        state = frame.state
+        np.testing.assert_allclose(state.position, [[1, 3, 4]])
+        np.testing.assert_allclose(state.orientation, [[0, -1, 0]], atol=1e-7)
+        # L / I = (2, 4) along x and y of the particle, which are x and z of the box
+        np.testing.assert_allclose(state.angular_velocity, [[2, 0, 4]], atol=1e-6)
+        self.assertEqual({name: value[0] for name, value in state.bodies.items()},
+                         {"length": 2, "diameter": 0, "mass": 3, "k": 12})
+        self.assertTrue(np.isnan(frame.time))
 
     def test_existing_files_are_kept(self):
         out = self.path("run.gsd")
