@@ -296,7 +296,8 @@ NEEDLEWORK_API int needlework_write_state(needlework_simulation* simulation, con
                                           unsigned flags);
 
 /* Replaces all velocities at the present time, by increasing id; the part of an angular velocity
- * along the director is removed. Needles that touch stay on their sides; hash, counts and the
+ * along the director is removed. Without angular velocities, where that is NULL, they are 0, and
+ * needlework_message() says so. Needles that touch stay on their sides; hash, counts and the
  * energy at the start are kept. The output file says in /velocities_set when that was and by how
  * much the energy changed, and kinetic theory is left out of it from then on. A sample or a frame
  * that is due at this instant is taken when the run goes on, and holds the new velocities;

@@ -56,6 +56,8 @@ struct RunInfo {
   std::vector<std::uint32_t> ids = {};   ///< of needles in each frame, for Writer::resume(), which
                                          ///< compares them if there are any
   std::vector<std::uint8_t> species = {};  ///< of needles in each frame; empty: all of the first
+  /// Names in /parameters of what is assumed of the bodies, and not known.
+  std::vector<std::string> assumed = {};
   bool has_kinds = false;  ///< whether /events holds more than collisions of two needles
 };
 
@@ -159,10 +161,10 @@ void set_reads_in_child_process(bool apart);
 ///
 /// Each of the four may be an H5MD element [F][N][3] or a plain dataset [N][3], with numbers of any
 /// type. Box edges may be [3], [3][3] (a diagonal matrix), [F][3] or [F][3][3], as a plain dataset
-/// or an element. id and image may be plain datasets, elements or absent. mass is not read. If
-/// elements have different steps, the frames are the steps that all of them have. Centres may lie
-/// on the edges of the box or outside. Numbers are not changed: |u| = 1 must hold within 1e-6, and
-/// u·w = 0 within 1e-6 |w|.
+/// or an element. id and image may be plain datasets, elements or absent. Bodies are those of
+/// /parameters, their mass otherwise that of the particles. If elements have different steps, the
+/// frames are the steps that all of them have. Centres may lie on the edges of the box or outside.
+/// Numbers are not changed: |u| = 1 must hold within 1e-6, and u·w = 0 within 1e-6 |w|.
 ///
 /// Throws IoError if the file cannot be read or is cut short, and InputError for wrong content,
 /// "PATH: /DATASET[index] = VALUE: expected ...".
@@ -178,6 +180,8 @@ class FrameFile {
   std::size_t count() const;
   /// Number of needles, of which none has been read yet.
   std::size_t needles() const;
+  /// What it says of its bodies, which states have, too.
+  Bodies bodies() const;
   /// Time of a frame [time], or nothing if the file does not have it.
   std::optional<double> time(std::size_t frame) const;
   /// Reads a frame. Frames are counted from 0; throws std::invalid_argument beyond the last.

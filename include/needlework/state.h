@@ -1,12 +1,28 @@
 // The state of all needles at one instant, as arrays.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace needlework {
+
+/// What a file says of the bodies in it: numbers of each species, none where it does not say them.
+struct Bodies {
+  std::vector<std::string> names = {};
+  std::vector<double> length = {};    ///< of the axis, without the caps [L]
+  std::vector<double> diameter = {};  ///< 0: thin needles [L]
+  std::vector<double> mass = {};      ///< [m]
+  std::vector<double> k = {};         ///< m L^2 / (2 I) [1]
+
+  /// Number of species; 0 if the file says nothing.
+  std::size_t species() const {
+    return std::max({names.size(), length.size(), diameter.size(), mass.size(), k.size()});
+  }
+};
 
 /// Positions, velocities, directors and angular velocities of N needles, one row of three numbers
 /// for each needle.
@@ -24,6 +40,7 @@ struct State {
   std::vector<std::uint8_t> species;                    ///< indices into the species of the scene;
                                                         ///< empty: as many as the scene counts of
                                                         ///< each, in order of id
+  Bodies bodies;                                        ///< of the file that it was read from
 
   std::size_t size() const { return position.size(); }
   /// Resizes all arrays to n needles, images and ids included.

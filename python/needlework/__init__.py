@@ -19,17 +19,17 @@ from .contacts import FirstContacts, predict
 from .data import Data
 from .errors import Error, InputError, InvalidStateError, IoError
 from .frames import Frame, Frames
-from .gsd_file import to_gsd
+from .gsd_file import GsdFrame, from_gsd, to_gsd
 from .order import NematicOrder, nematic_order
 from .reading import Events, Recording, Series, VelocitiesSet, read
 from .sweeps import SweepSummary
 from .simulation import (Counters, EnergyBudget, SceneWarning, Simulation, SlidingContacts,
                          SpeciesTotals, Totals, WallTotals)
-from .state import State
+from .state import Bodies, State
 from .values import Table, Values
 
-__all__ = ["COLLISION", "COLLISION_WITH_STATES", "Counters", "Data", "EnergyBudget", "Error",
-           "Events", "FirstContacts", "Frame", "Frames", "HAPPENING", "HAPPENING_WITH_STATES", "InputError",
+__all__ = ["Bodies", "COLLISION", "COLLISION_WITH_STATES", "Counters", "Data", "EnergyBudget", "Error",
+           "Events", "FirstContacts", "Frame", "Frames", "GsdFrame", "HAPPENING", "HAPPENING_WITH_STATES", "InputError",
            "InvalidStateError", "IoError", "KINDS", "NematicOrder", "Recording", "SceneWarning", "Series",
            "Simulation", "SlidingContacts", "SpeciesTotals", "State", "SweepSummary", "Table", "Totals", "Values", "VelocitiesSet",
-           "WallTotals", "nematic_order", "plot", "predict", "read", "theory", "to_gsd", "__version__"]
+           "WallTotals", "from_gsd", "nematic_order", "plot", "predict", "read", "theory", "to_gsd", "__version__"]

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 version: str
+no_rotation_given: str
 
 def collision_rate(k: ArrayLike, density: ArrayLike, t_tr: ArrayLike,
                    t_rot: ArrayLike) -> np.ndarray: ...

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .errors import InputError, IoError
-from .state import ARRAYS, State
+from .state import ARRAYS, NUMBERS_OF_BODIES, Bodies, State
 from .values import NotPickled
 
 if TYPE_CHECKING:
@@ -95,8 +95,8 @@ class Frame(NotPickled):
     @property
     def state(self) -> State:
         """All needles: the arrays position, velocity, orientation, angular_velocity, image, id and
-        species by name, from which ``Simulation(scene, **state)`` starts."""
-        return State.of(getattr(self, name) for name in ARRAYS)
+        species by name, and bodies, from which ``Simulation(scene, **state)`` starts."""
+        return State.of((getattr(self, name) for name in ARRAYS), self._needles.bodies)
 
     def __repr__(self) -> str:
         collisions = "" if self.collisions is None else f", {self.collisions} collisions"
@@ -171,6 +171,41 @@ def _periodic(group: h5py.Group) -> np.ndarray:
     boundary = _get(group, "box").attrs.get("boundary", ())
     words = [word.decode() if isinstance(word, bytes) else str(word) for word in np.ravel(boundary)]
     return np.array([word != "none" for word in words] if len(words) == 3 else [True] * 3)
+
+
+def _bodies(group: h5py.Group) -> Bodies:
+    """What a file says of its bodies in /parameters or, of the mass, with the particles; without
+    what was assumed when the file was imported. See docs/file-format.md."""
+    import h5py
+
+    parameters = _get(group.file, "parameters")
+
+    def dataset(name: str) -> h5py.Dataset | None:
+        item = _get(parameters, name) if isinstance(parameters, h5py.Group) else None
+        return item if isinstance(item, h5py.Dataset) else None
+
+    def column(name: str) -> np.ndarray:
+        item = dataset(name)
+        if item is None or "assumed" in item.attrs or len(item.shape) > 1:
+            return np.array([])
+        if name == "species":
+            names = item.asstr()[()] if h5py.check_string_dtype(item.dtype) else []
+            return np.atleast_1d(np.array(names, dtype=object))
+        return np.atleast_1d(item[()]) if item.dtype.kind in "iuf" else np.array([])
+
+    known = {"name": column("species"), **{name: column(name) for name in NUMBERS_OF_BODIES}}
+    if dataset("diameter") is None:
+        known["diameter"] = np.zeros(len(known["length"]))
+    masses = _get(group, "mass")
+    if dataset("mass") is None and isinstance(masses, h5py.Dataset) and len(masses.shape) == 1:
+        species = _get(group, "species")
+        indices = species[()] if isinstance(species, h5py.Dataset) else np.zeros(len(masses), int)
+        present = np.unique(indices)
+        if np.shape(indices) == masses.shape and np.array_equal(present, range(len(present))):
+            by_species = [np.unique(masses[()][indices == index]) for index in present]
+            if all(len(each) == 1 for each in by_species):
+                known["mass"] = np.concatenate(by_species) if by_species else np.array([])
+    return Bodies.of(known)
 
 
 class Element:
@@ -270,6 +305,7 @@ class Needles:
         self.count = position.shape[-2]
         self._common: np.ndarray | None = None  # steps of the frames, if elements differ in them
         self.periodic = _periodic(group)
+        self.bodies = _bodies(group)
         self.frames = self._count_frames(position)
         self._require_shapes()
         self.steps, self.times = self._steps_and_times(position)

@@ -1,4 +1,4 @@
-"""Frames as GSD files, which HOOMD-blue, OVITO and freud read."""
+"""Frames as GSD files, which HOOMD-blue, OVITO and freud read and write."""
 
 from __future__ import annotations
 
@@ -10,8 +10,10 @@ import numpy as np
 from . import _core
 from .errors import InputError, IoError
 from .reading import Recording, read
+from .state import Bodies, State
+from .values import Values
 
-__all__ = ["to_gsd"]
+__all__ = ["GsdFrame", "from_gsd", "to_gsd"]
 
 DRAWN_RADIUS = 0.02
 """Needles have no thickness. They are drawn with this radius in the middle, in lengths."""
@@ -35,8 +37,8 @@ def to_gsd(source: Union[Recording, str, os.PathLike, Any], path: str, frames: A
     by half the box, because its boxes have their centre in the origin. Its quaternion ``orientation``
     turns (0, 0, 1) into the director, and its ``type_shapes`` are thin ellipsoids along that axis, so
     that OVITO draws needles; of rods of finite width they are meshes of cylinders with spherical
-    caps, or spheres, and ``diameter`` is theirs. Lengths and diameters of the types are in
-    ``log["length"]`` and ``log["diameter"]``. The species of a mixture are its types. GSD has no
+    caps, or spheres, and ``diameter`` is theirs. Length, diameter, mass and k of the types are
+    in ``log``, in double precision. The species of a mixture are its types. GSD has no
     angular velocity: it is in ``log["particles/angular_velocity"]``, in double precision, and the
     time is in ``log["time"]``. HOOMD-blue's boxes are periodic; ``log["periodic"]`` has 0 for axes
     with walls. Along these a box encloses bodies beyond its edges, as above an open side:
@@ -57,7 +59,7 @@ def to_gsd(source: Union[Recording, str, os.PathLike, Any], path: str, frames: A
     unfinished = path + ".part"  # the file appears under its name when it is complete
     try:
         with _core.StandardDescriptors():
-            opened = gsd.hoomd.open(unfinished, "wb")
+            opened = gsd.hoomd.open(unfinished, _mode("w"))
         with opened as file:
             for frame in chosen:
                 file.append(_snapshot(frame, gas, names))
@@ -68,6 +70,138 @@ def to_gsd(source: Union[Recording, str, os.PathLike, Any], path: str, frames: A
         if os.path.exists(unfinished):
             os.remove(unfinished)
     return len(chosen)
+
+
+class GsdFrame(Values):
+    """A frame of a GSD file."""
+
+    state: State
+    """All needles, from which ``Simulation(scene, **frame.state)`` starts."""
+    box: np.ndarray
+    """Edges of the box, [3] [L]."""
+    periodic: np.ndarray
+    """Along which axes the box is periodic, [3]."""
+    time: float
+    """Since the start of the run [time]; not a number where the file does not say it."""
+    step: int
+    """Of the other program; that of to_gsd() is the number of collisions."""
+
+
+def from_gsd(path: str, frame: int = -1) -> GsdFrame:
+    """Reads a frame of a GSD file, the last one unless another is asked for.
+
+    ``Simulation({"needles": {"box": list(frame.box)}}, **frame.state)`` starts from it. The director
+    of a particle is (0, 0, 1) turned by its quaternion, and positions are counted from the corner of
+    the box. Angular velocities are those that to_gsd() writes or, of HOOMD-blue, follow from angmom
+    and moment_inertia; the part along the director is left out. Types are species, of which mass
+    and k = m L^2 / (2 I) follow from the particles, length and diameter from what to_gsd() writes or
+    from type_shapes, Sphere or Ellipsoid. What follows from single precision is rounded to six
+    digits. Raises InputError for a box with tilts and for particles of a type that differ. Needs
+    python3-gsd.
+    """
+    import gsd.hoomd
+
+    path = os.fsdecode(path)
+    try:
+        with _core.StandardDescriptors():
+            opened = gsd.hoomd.open(path, _mode("r"))
+        with opened as file:
+            snapshot = file[frame]
+    except IndexError:
+        raise InputError(f"{path}: frame {frame}: expected one of those in the file") from None
+    except (OSError, RuntimeError) as error:
+        raise IoError(f"{path}: cannot be read: {error}") from error
+    *edges, xy, xz, yz = (float(edge) for edge in snapshot.configuration.box)
+    if (xy, xz, yz) != (0, 0, 0):
+        raise InputError(f"{path}: box with the tilts {xy}, {xz}, {yz}: expected 0, a rectangular "
+                         "box")
+    particles, log = snapshot.particles, snapshot.log
+    # Of files of to_gsd(), whose boxes enclose bodies beyond the edges of the run.
+    box = np.asarray(log.get("edges", edges), dtype=float)
+    centre = np.asarray(log.get("centre", box / 2), dtype=float)
+    quaternion = particles.orientation.astype(float)
+    quaternion /= np.linalg.norm(quaternion, axis=1, keepdims=True)
+    if "particles/angular_velocity" in log:
+        angular_velocity = log["particles/angular_velocity"].astype(float)
+    else:
+        angular_velocity = _angular_velocities(particles, quaternion)
+    arrays = (particles.position + centre, particles.velocity.astype(float),
+              _turned(quaternion, np.array([0.0, 0.0, 1.0])), angular_velocity,
+              particles.image.astype(np.int32), np.arange(particles.N, dtype=np.uint32),
+              particles.typeid.astype(np.uint8))
+    return GsdFrame({
+        "state": State.of(arrays, _bodies_of(path, snapshot)), "box": box,
+        "periodic": np.asarray(log.get("periodic", np.ones(3))).astype(bool),
+        "time": float(log["time"][0]) if "time" in log else float("nan"),
+        "step": int(snapshot.configuration.step)})
+
+
+def _turned(q: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """Vectors turned by unit quaternions (w, x, y, z), [N, 3]."""
+    w, axis = q[:, :1], q[:, 1:]
+    twice = 2 * np.cross(axis, vectors)
+    return vectors + w * twice + np.cross(axis, twice)
+
+
+def _angular_velocities(particles: Any, q: np.ndarray) -> np.ndarray:
+    """Of HOOMD-blue, whose angmom is the quaternion 2 q (0, L), L the angular momentum in the frame
+    of the particle, along the axis of which needles do not turn."""
+    p = particles.angmom.astype(float)
+    w, axis = q[:, :1], q[:, 1:]
+    # The vector part of conj(q) p / 2.
+    momentum = (w * p[:, 1:] - p[:, :1] * axis - np.cross(axis, p[:, 1:])) / 2
+    inertia = particles.moment_inertia.astype(float)
+    spin = np.divide(momentum, inertia, out=np.zeros_like(momentum), where=inertia > 0)
+    spin[:, 2] = 0
+    return _turned(q, spin)
+
+
+def _bodies_of(path: str, snapshot: Any) -> Bodies:
+    """What a frame says of its types; see from_gsd()."""
+    particles, log = snapshot.particles, snapshot.log
+    types = range(len(particles.types))
+
+    def common(name: str, values: np.ndarray) -> np.ndarray:
+        """The number of each type; none if there is a type without particles."""
+        found = [np.unique(values[particles.typeid == n]) for n in types]
+        for kind, numbers in zip(particles.types, found):
+            if len(numbers) > 1:
+                raise InputError(f"{path}: {name} from {numbers[0]} to {numbers[-1]} of the type "
+                                 f"{kind}: expected one, as those of a species are equal")
+        whole = all(len(numbers) for numbers in found)
+        return np.concatenate(found).astype(float) if whole else np.array([])
+
+    known = {name: np.asarray(log[name], dtype=float)
+             for name in ("length", "diameter", "mass", "k") if name in log}
+    sizes = [_size_of(shape) for shape in particles.type_shapes or []]
+    if "length" not in known and len(sizes) == len(types) and None not in sizes:
+        known["length"], known["diameter"] = (np.array(column) for column in zip(*sizes))
+    if "mass" not in known:
+        known["mass"] = _rounded(common("mass", particles.mass))
+    if "k" not in known and len(known.get("length", ())) == len(known["mass"]) > 0:
+        inertia = common("moment_inertia", particles.moment_inertia[:, 0])
+        if len(inertia) and np.all((inertia > 0) | (known["length"] == 0)):
+            shape = known["mass"] * known["length"]**2
+            k = np.divide(shape, 2 * inertia, out=np.full_like(shape, 6.0), where=shape > 0)
+            known["k"] = _rounded(k)
+    if len(types) > 1:
+        known["name"] = particles.types
+    return Bodies.of(known)
+
+
+def _size_of(shape: dict[str, Any]) -> tuple[float, float] | None:
+    """Length and diameter of a body that is drawn like this; a thin ellipsoid is a needle."""
+    kind = shape.get("type")
+    if kind == "Sphere":
+        return 0.0, float(shape["diameter"])
+    if kind == "Ellipsoid" and max(shape["a"], shape["b"]) < shape["c"]:
+        return 2 * float(shape["c"]), 0.0
+    return None
+
+
+def _rounded(values: np.ndarray) -> np.ndarray:
+    """Numbers that are known in single precision."""
+    return np.array([float(f"{value:.6g}") for value in values])
 
 
 def _frames_of(source: Any, frames: Any) -> list[Any]:
@@ -82,7 +216,7 @@ def _frames_of(source: Any, frames: Any) -> list[Any]:
 def _snapshot(frame: Any, gas: Any, names: list[str]) -> Any:
     import gsd.hoomd
 
-    snapshot = gsd.hoomd.Snapshot()
+    snapshot = (gsd.hoomd.Frame if hasattr(gsd.hoomd, "Frame") else gsd.hoomd.Snapshot)()
     count = len(frame.position)
     collisions = frame.collisions if hasattr(frame, "collisions") else frame.totals.collisions
     snapshot.configuration.step = collisions
@@ -109,9 +243,17 @@ def _snapshot(frame: Any, gas: Any, names: list[str]) -> Any:
     snapshot.log = {"particles/angular_velocity": np.asarray(frame.angular_velocity),
                     "time": np.array([frame.time]),
                     "length": lengths.astype(float), "diameter": diameters.astype(float),
+                    "mass": masses.astype(float), "k": shapes.astype(float),
                     "periodic": frame.periodic.astype(np.uint8),
                     "edges": np.asarray(frame.box, dtype=float), "centre": (low + high) / 2}
     return snapshot
+
+
+def _mode(mode: str) -> str:
+    """"r" or "w", as this version of the package names it: those before 2.8 say "rb" and "wb"."""
+    import gsd.hoomd
+
+    return mode if hasattr(gsd.hoomd, "Frame") else mode + "b"
 
 
 def _bounds(frame: Any, reach: float) -> tuple[np.ndarray, np.ndarray]:

@@ -6,7 +6,7 @@ import operator
 import os
 import warnings
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Optional
 
 import numpy as np
@@ -20,7 +20,7 @@ from .data import Data
 from .errors import Error, InputError
 from .progress import progress_line
 from .scene_text import SceneLike, scene_text
-from .state import State
+from .state import NUMBERS_OF_BODIES, Bodies, State
 from .values import NotPickled, Values, html_table
 
 Callback = Callable[[np.ndarray], object]
@@ -158,6 +158,9 @@ class Simulation(NotPickled):
         Which of the scene's species each needle is of, from 0 in their order. Counts of the
         scene, where given, must agree. If it is not given, ids go through the species in their
         order.
+    bodies : mapping, optional
+        What the species are made of: length, diameter, mass and k of each, and name. It is taken
+        where the scene is silent; what the scene says otherwise is an error.
     image : array [N, 3] of whole numbers, optional
         Boxes crossed by these needles before, from which their images go on; 0 if not given.
     id : array [N] of whole numbers, optional
@@ -191,10 +194,10 @@ class Simulation(NotPickled):
                  velocity: ArrayLike | None = None, orientation: ArrayLike | None = None,
                  angular_velocity: ArrayLike | None = None, image: ArrayLike | None = None,
                  id: ArrayLike | None = None, species: ArrayLike | None = None,
-                 force: bool = False) -> None:
+                 bodies: Mapping[str, ArrayLike] | None = None, force: bool = False) -> None:
         text, name, has_lines = scene_text(scene)
         state = _state({"position": position, "velocity": velocity, "orientation": orientation,
-                        "angular_velocity": angular_velocity}, image, id, species)
+                        "angular_velocity": angular_velocity}, image, id, species, bodies)
         self._run = _core.Run(text, os.fsencode(name), has_lines, state, bool(force))
         for message in self._run.warnings():
             warnings.warn(message, SceneWarning, stacklevel=2)
@@ -325,11 +328,13 @@ class Simulation(NotPickled):
         listen(None if callback is None else _callback_of(self, name), size, rows)
         setattr(self, name, callback)
 
-    def set_velocities(self, velocity: ArrayLike, angular_velocity: ArrayLike) -> None:
+    def set_velocities(self, velocity: ArrayLike,
+                       angular_velocity: ArrayLike | None = None) -> None:
         """Replaces the velocities of all needles, as arrays [N, 3] in order of id.
 
-        The part of an angular velocity along the director is removed. Counts, the hash and the
-        energy that energy_ratio refers to are kept. Costs about as much as a new simulation.
+        Without angular velocities these are set to 0, with a SceneWarning. The part of an angular
+        velocity along the director is removed. Counts, the hash and the energy that energy_ratio
+        refers to are kept. Costs about as much as a new simulation.
 
         The output file says when that was and by how much the energy changed
         (``Recording.velocities_set``), and kinetic theory is left out of it from then on. A sample
@@ -337,9 +342,12 @@ class Simulation(NotPickled):
         velocities; call sample() before this for one with the old ones.
         """
         count = self._facts.count
+        given = np.zeros((count, 3)) if angular_velocity is None else angular_velocity
         self._forget()
         self._run.set_velocities(rows_of_vectors("velocity", velocity, count),
-                                 rows_of_vectors("angular_velocity", angular_velocity, count))
+                                 rows_of_vectors("angular_velocity", given, count))
+        if angular_velocity is None and np.any(self._facts.bodies["length"]):
+            warnings.warn(_core.no_rotation_given, SceneWarning, stacklevel=2)
         self._note_velocities_set()
 
     def _note_velocities_set(self) -> None:
@@ -392,7 +400,7 @@ class Simulation(NotPickled):
         """All needles: the arrays position, velocity, orientation, angular_velocity, image, id and
         species by name, from which ``Simulation(scene, **state)`` starts."""
         if self._copy is None:
-            self._copy = State.of(self._run.state())
+            self._copy = State.of(self._run.state(), Bodies.of(self._facts.bodies))
         return self._copy
 
     @property
@@ -595,7 +603,8 @@ def _callback_of(simulation: Simulation, name: str) -> Callback:
 
 
 def _state(arrays: dict[str, ArrayLike | None], image: ArrayLike | None, ids: ArrayLike | None,
-           species: ArrayLike | None) -> tuple[np.ndarray | None, ...] | None:
+           species: ArrayLike | None, bodies: Mapping[str, ArrayLike] | None
+           ) -> tuple[np.ndarray | tuple | None, ...] | None:
     """The arrays of an initial state, or None if there are none."""
     given = {name: values for name, values in arrays.items() if values is not None}
     if not given and image is None and ids is None and species is None:
@@ -613,7 +622,22 @@ def _state(arrays: dict[str, ArrayLike | None], image: ArrayLike | None, ids: Ar
             None if ids is None else
             whole_numbers("id", ids, (count,), 0, 2**32 - 1).astype(np.uint32),
             None if species is None else
-            whole_numbers("species", species, (count,), 0, 254).astype(np.uint8))
+            whole_numbers("species", species, (count,), 0, 254).astype(np.uint8),
+            _columns_of(bodies or {}))
+
+
+def _columns_of(bodies: Mapping[str, ArrayLike]) -> tuple[list, ...]:
+    """The columns of bodies, empty where they are not known."""
+    names = ("name", *NUMBERS_OF_BODIES)
+    unknown = set(bodies) - set(names)
+    if unknown:
+        raise InputError(f"bodies: {', '.join(sorted(unknown))}: expected {', '.join(names)}")
+    try:
+        return ([str(name) for name in bodies.get("name", ())],
+                *([float(value) for value in np.ravel(bodies.get(name, ()))]
+                  for name in NUMBERS_OF_BODIES))
+    except (TypeError, ValueError):
+        raise InputError("bodies: expected a number for each species") from None
 
 
 def _number(name: str, value: float | None) -> float | None:

@@ -2,13 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, KeysView, Mapping
+from typing import Any
 
 import numpy as np
 
 from .values import Table
 
 ARRAYS = ("position", "velocity", "orientation", "angular_velocity", "image", "id", "species")
+NUMBERS_OF_BODIES = ("length", "diameter", "mass", "k")
+
+
+class Bodies(Table):
+    """What is known of the bodies of a state, one row for each species. What is not known is
+    missing: name of a single species, or all of it in files of other programs."""
+
+    name: tuple[str, ...]
+    """Names of the species."""
+    length: np.ndarray
+    """Lengths of the axes, without caps, [species] [L]."""
+    diameter: np.ndarray
+    """Diameters, 0 of thin needles, [species] [L]."""
+    mass: np.ndarray
+    """Masses, [species] [m]."""
+    k: np.ndarray
+    """k = m L^2 / (2 I), [species]."""
+
+    @classmethod
+    def of(cls, columns: Mapping[str, Iterable]) -> Bodies:
+        """The bodies of these columns, without those that are empty."""
+        return cls({name: tuple(column) if name == "name" else np.array(column, dtype=float)
+                    for name, column in columns.items() if len(column)})
 
 
 class State(Table):
@@ -28,8 +52,26 @@ class State(Table):
     """Ids of the needles, [N]."""
     species: np.ndarray
     """Index of the species of each needle, from 0 in the order of the scene, [N]."""
+    bodies: Bodies
+    """What the species are made of, which another scene must not contradict."""
 
     @classmethod
-    def of(cls, arrays: Iterable[np.ndarray]) -> State:
+    def of(cls, arrays: Iterable[np.ndarray], bodies: Bodies) -> State:
         """The state of these arrays, in the order of ARRAYS."""
-        return cls(dict(zip(ARRAYS, arrays)))
+        return cls({**dict(zip(ARRAYS, arrays)), "bodies": bodies})
+
+    # The items are the arrays, one row for each needle. keys() names the bodies, too, so that
+    # ``**state`` hands them over.
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(ARRAYS)
+
+    def __len__(self) -> int:
+        return len(ARRAYS)
+
+    def keys(self) -> KeysView[str]:
+        return self._values.keys()
+
+    @property
+    def columns(self) -> Mapping[str, Any]:
+        return dict(self.items())

@@ -56,22 +56,27 @@ class Table(Values):
     """Columns of one length: arrays [rows] or [rows, 3]."""
 
     @property
+    def columns(self) -> Mapping[str, Any]:
+        """Those of the values that are columns, which are all unless a class says otherwise."""
+        return self._values
+
+    @property
     def rows(self) -> int:
         """Number of rows."""
-        return len(next(iter(self._values.values()), ()))
+        return len(next(iter(self.columns.values()), ()))
 
     def to_pandas(self) -> pandas.DataFrame:
         """The table in pandas; a column of vectors becomes three, such as momentum_x."""
-        return pandas_table(self._values)
+        return pandas_table(self.columns)
 
     def __repr__(self) -> str:
         return f"{type(self).__name__} of {self.rows} rows: {', '.join(self)}"
 
     def _repr_html_(self) -> str:
         shown = self.rows if self.rows <= 10 else 5
-        flat = flat_columns(self._values)
+        flat = flat_columns(self.columns)
         head = "".join(f"<th>{html.escape(name)}</th>" for name in flat)
-        rows = "".join("<tr>" + "".join(f"<td>{column[i]:.6g}</td>" for column in flat.values())
+        rows = "".join("<tr>" + "".join(f"<td>{_shown(column[i])}</td>" for column in flat.values())
                        + "</tr>" for i in range(shown))
         return f"<table><tr>{head}</tr>{rows}</table><p>{self.rows} rows</p>"
 
@@ -83,6 +88,10 @@ def short_text(value: Any) -> str:
     if value.size > 9:
         return f"array{list(value.shape)}"
     return np.array2string(value, separator=", ", max_line_width=sys.maxsize).replace("\n", "")
+
+
+def _shown(value: Any) -> str:
+    return html.escape(value) if isinstance(value, str) else f"{value:.6g}"
 
 
 def flat_columns(columns: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:

@@ -66,8 +66,9 @@ needlework_simulation* create(unsigned flags, needlework_error* error, Load&& lo
     const bool replaces = flags & NEEDLEWORK_REPLACE;
     runs::LoadedScene loaded = load();
     runs::require_writable_output(loaded.scene, replaces, path ? path : "", "NEEDLEWORK_REPLACE");
+    const std::string warning = runs::warning_of_unknown_bodies(loaded);
     made = new needlework_simulation(std::move(loaded), replaces);
-    report_warning(made->run.warning(), error);
+    report_warning(runs::joined(warning, made->run.warning()), error);
   });
   return made;
 }

@@ -201,11 +201,14 @@ int needlework_set_velocities(needlework_simulation* simulation,
                               const needlework_const_vectors* angular_velocity) {
   return c::guarded(simulation, [&](needlework_simulation& self) {
     c::require(velocity, "velocity");
-    c::require(angular_velocity, "angular_velocity");
     c::require(velocity->data, "velocity->data");
-    c::require(angular_velocity->data, "angular_velocity->data");
+    if (angular_velocity) c::require(angular_velocity->data, "angular_velocity->data");
     const std::size_t count = self.run.simulation().needles();
-    const auto v = c::rows_of(*velocity, count), w = c::rows_of(*angular_velocity, count);
+    const auto v = c::rows_of(*velocity, count);
+    const auto w =
+        c::rows_of(angular_velocity ? *angular_velocity : needlework_const_vectors{}, count);
     c::changing(self, [&] { self.run.set_velocities(v, w); });
+    if (!angular_velocity && !self.run.simulation().composition().are_spheres())
+      c::report_warning(runs::no_rotation_given, &self.last);
   });
 }

@@ -27,6 +27,15 @@ void add_info_command(CLI::App& app, int& exit_code) {
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 
+CLI::Validator frame_choice(bool all) {
+  return {[all](const std::string& text) -> std::string {
+            if (is_frame_choice(text) && (all || text != "all")) return "";
+            return fmt::format("{}: expected a number from 0, first{}", text,
+                               all ? ", last or all" : " or last");
+          },
+          "FRAME"};
+}
+
 void add_import_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "import", "make a scene and a state of a configuration of another program");
@@ -39,24 +48,17 @@ void add_import_command(CLI::App& app, int& exit_code) {
   command->add_option("--out", arguments->folder, "folder for scene.toml and state.h5")
       ->option_text("DIR")
       ->required();
+  command->add_option("--frame", arguments->frame, "first, last or a number from 0; last if absent")
+      ->check(frame_choice(false));
   command->add_flag("--force", arguments->force, "replace existing files");
   command->footer(R"(Nothing is rescaled. What needles do not have, such as other interactions,
-is an error that names its place. Of several frames the last is taken. The end of
-the run is not in such a file: choose one in [until] of scene.toml.
+is an error that names its place. Of several frames the last is taken unless --frame
+says which. The end of the run is not in such a file: choose one in [until] of scene.toml.
 
 Examples:
   needlework import config.xml.bz2 --out lines
   needlework run lines/scene.toml --out lines/run.h5)");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
-}
-
-CLI::Validator frame_choice() {
-  return {[](const std::string& text) -> std::string {
-            return is_frame_choice(text)
-                       ? ""
-                       : fmt::format("{}: expected a number from 0, first, last or all", text);
-          },
-          "FRAME"};
 }
 
 void add_export_command(CLI::App& app, int& exit_code) {
@@ -74,7 +76,7 @@ void add_export_command(CLI::App& app, int& exit_code) {
                    "which frames, counted from 0; by default all, or the last where a format holds "
                    "one")
       ->option_text("N|first|last|all")
-      ->check(frame_choice());
+      ->check(frame_choice(true));
   command->add_flag("--force", arguments->force, "replace existing files");
   command->footer(R"(Formats:
   vtkhdf  .vtkhdf             one frame   ParaView and VTK
@@ -138,7 +140,7 @@ void add_view_command(CLI::App& app, int& exit_code) {
       ->add_option("--frame,--frames", arguments->frame,
                    "which frame, counted from 0; all writes FILE-00000.png and so on")
       ->option_text("N|first|last|all")
-      ->check(frame_choice())
+      ->check(frame_choice(true))
       ->capture_default_str();
   add_choice(
       command->add_option("--colour,--color", picture.colour, "what the colours of needles show")

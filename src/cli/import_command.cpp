@@ -9,6 +9,7 @@
 #include "needlework/error.h"
 #include "needlework/h5md.h"
 #include "needlework/parse.h"
+#include "needlework/simulation.h"
 #include "src/cli/file_kind.h"
 #include "src/cli/messages.h"
 #include "src/io/formats/read_configuration.h"
@@ -80,6 +81,15 @@ void warn_of_roundings(const io::Configuration& read, const std::string& path) {
                   printable(path), roundings.needles, read.state.size(), roundings.largest));
 }
 
+// Such as bodies that overlap, which only an edited state will not have.
+void warn_of_bad_state(const Scene& scene, const State& state, const std::string& path) {
+  try {
+    require_simulable(scene, state);
+  } catch (const InputError& error) {
+    print_warning(fmt::format("{}: cannot be run as it is: {}", printable(path), error.what()));
+  }
+}
+
 // The species with the counts of their needles.
 Composition counted(const io::Configuration& read, const std::string& from) {
   Composition composition = io::composition_of(read.material, printable(from));
@@ -102,12 +112,14 @@ Composition counted(const io::Configuration& read, const std::string& from) {
   return composition;
 }
 
-std::string species_text(const Composition& composition) {
+std::string species_text(const Composition& composition, bool is_length_known) {
   std::string text;
   for (const Species& each : composition.species()) {
     text += fmt::format("[[species]]\nname = {}\ncount = {}\nlength = {}\nmass = {}\nk = {}\n",
                         toml(printable(each.name)), each.count, each.length, each.mass, each.k);
-    text += each.diameter == 0 ? "\n" : fmt::format("diameter = {}\n\n", each.diameter);
+    // A state of unknown length says no diameter either.
+    const bool is_said = each.diameter > 0 || !is_length_known;
+    text += is_said ? fmt::format("diameter = {}\n\n", each.diameter) : "\n";
   }
   return text;
 }
@@ -192,14 +204,20 @@ file = {}
 collisions_per_needle = {}  # not from the file: choose an end
 )",
       toml(printable("Imported from " + fs::path(from).filename().string())),
-      fmt::join(read.state.box, ", "), species_text(composition), path_in_toml(state_file),
-      rule_text(composition.restitution(0, 0), read.contact_time), pairs_text(composition),
-      walls_text(walls_of(read, from), read.material.gravity), assumed_collisions_per_needle);
+      fmt::join(read.state.box, ", "), species_text(composition, !read.material.length.empty()),
+      path_in_toml(state_file), rule_text(composition.restitution(0, 0), read.contact_time),
+      pairs_text(composition), walls_text(walls_of(read, from), read.material.gravity),
+      assumed_collisions_per_needle);
 }
 
-io::Configuration read_configuration(const std::string& path) {
+std::optional<std::size_t> frame_number(const std::string& frame) {
+  if (frame == "last") return {};
+  return frame == "first" ? 0 : std::stoull(frame);
+}
+
+io::Configuration read_configuration(const ImportArguments& arguments) {
   try {
-    return io::read_configuration(path);
+    return io::read_configuration(arguments.from, frame_number(arguments.frame));
   } catch (const InputError& error) {
     throw InputError(printable(error.what()));
   }
@@ -214,10 +232,25 @@ Scene checked_scene(const std::string& text, const std::string& from) {
   }
 }
 
-void write_state(const std::string& file, bool force, const Scene& scene, const State& state) {
+// What the scene may say otherwise, as the file does not say it.
+std::vector<std::string> assumed_of_bodies(const io::Material& material) {
+  std::vector<std::string> names;
+  for (const auto& [name, is_known] : {std::pair("species", !material.names.empty()),
+                                       {"length", !material.length.empty()},
+                                       {"mass", !material.mass.empty()},
+                                       {"k", !material.k.empty()}}) {
+    if (!is_known) names.emplace_back(name);
+  }
+  return names;
+}
+
+void write_state(const std::string& file, bool force, const Scene& scene,
+                 const io::Configuration& read) {
+  const State& state = read.state;
   io::RunInfo run;
   run.isa = "none";  // nothing was computed
   run.species = state.species;
+  run.assumed = assumed_of_bodies(read.material);
   io::Writer writer(file, force, scene, run);
   writer.write_frame(runs::totals_of(state, scene), state);
   writer.close();
@@ -236,7 +269,7 @@ void make_folder(const std::string& folder) {
 
 int run(const ImportArguments& arguments) {
   const io::Configuration read = read_file(arguments.from, FileKind::configuration,
-                                           [&] { return read_configuration(arguments.from); });
+                                           [&] { return read_configuration(arguments); });
   const fs::path folder(arguments.folder);
   const std::string scene_file = (folder / "scene.toml").string();
   const std::string state_file = (folder / "state.h5").string();
@@ -254,7 +287,8 @@ int run(const ImportArguments& arguments) {
     print_warning(fmt::format("{}: {}", printable(arguments.from), note));
   }
   warn_of_roundings(read, arguments.from);
-  write_state(state_file, arguments.force, scene, read.state);
+  warn_of_bad_state(scene, read.state, arguments.from);
+  write_state(state_file, arguments.force, scene, read);
   io::TextFile out(scene_file, arguments.force);
   out.write(text);
   out.publish();

@@ -8,6 +8,7 @@ namespace needlework::cli {
 struct ImportArguments {
   std::string from;
   std::string folder;
+  std::string frame = "last";  ///< or "first", or the number of one, from 0
   bool force = false;
 };
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "needlework/error.h"
+#include "needlework/h5md.h"
 #include "src/cli/file_kind.h"
 #include "src/cli/json.h"
 #include "src/cli/log_file.h"
@@ -33,6 +34,7 @@
 #include "src/runs/sweep_grid.h"
 #include "src/runs/sweep_run.h"
 #include "src/runs/sweep_summary.h"
+#include "src/scene/adopt_state.h"
 #include "src/scene/check.h"
 
 namespace needlework::cli {
@@ -71,16 +73,32 @@ void choose_engines(sweep::Grid& grid, const std::optional<std::string>& isa) {
   }
 }
 
+// What initial.file says of its bodies. A file that cannot be read is a matter of its members.
+Bodies bodies_of(const std::string& file) {
+  try {
+    return io::FrameFile(file).bodies();
+  } catch (const IoError&) {
+  } catch (const InputError&) {
+  }
+  return {};
+}
+
 // Each once, in the order of the members.
 std::vector<std::string> all_warnings(const sweep::Grid& grid) {
   std::vector<std::string> all;
+  const auto add = [&](std::string warning) {
+    if (std::ranges::find(all, warning) == all.end()) all.push_back(std::move(warning));
+  };
+  std::map<std::string, Bodies> bodies;
   for (const sweep::Member& member : grid.members) {
     Scene scene = member.scene;
     scene.output.file = member.name;  // output does go somewhere
-    for (std::string& warning : warnings(scene)) {
-      if (std::find(all.begin(), all.end(), warning) == all.end())
-        all.push_back(std::move(warning));
-    }
+    for (std::string& warning : warnings(scene)) add(std::move(warning));
+    const std::string& file = scene.initial.file;
+    if (file.empty()) continue;
+    if (!bodies.contains(file)) bodies[file] = bodies_of(file);
+    if (std::string warning = warning_of_unknown_bodies(scene, bodies[file]); !warning.empty())
+      add(std::move(warning));
   }
   return all;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 #include <vector>
 
 #include "needlework/error.h"
@@ -52,6 +53,25 @@ void check_image(const Gas& gas, Needle i) {
   }
 }
 
+// A state that was read from a file is not run as one of other bodies.
+void require_same_bodies(const Composition& composition, const Bodies& bodies) {
+  for (const auto& [key, known, value] : {std::tuple("length", &Bodies::length, &Species::length),
+                                          {"diameter", &Bodies::diameter, &Species::diameter},
+                                          {"mass", &Bodies::mass, &Species::mass},
+                                          {"k", &Bodies::k, &Species::k}}) {
+    const std::vector<double>& expected = bodies.*known;
+    if (expected.empty()) continue;
+    check_size(expected.size(), composition.size(), "species");
+    for (std::size_t n = 0; n < expected.size(); ++n) {
+      const double given = composition[n].*value;
+      const bool counts = composition[n].turns() || value != &Species::k;
+      if (!counts || std::abs(given - expected[n]) <= 1e-12 * expected[n]) continue;
+      throw InputError(fmt::format("state: bodies of {} = {}: expected {}, as in the scene", key,
+                                   expected[n], given));
+    }
+  }
+}
+
 // The species of the scene with the counts of the state.
 Composition composition_of(const Scene& scene, const State& initial) {
   Composition composition = scene.composition();
@@ -61,6 +81,7 @@ Composition composition_of(const Scene& scene, const State& initial) {
         fmt::format("state: {} needles: expected {}, as the species of the scene count",
                     initial.size(), composition.count()));
   }
+  require_same_bodies(composition, initial.bodies);
   return composition;
 }
 
@@ -133,6 +154,9 @@ void require_inside(const Scene& scene, const Gas& gas) {
 void require_room_for_rods(const Scene& scene, const Gas& gas) {
   if (!gas.composition.has_width()) return;
   RodGrid grid(gas.composition, gas.box, scene.periodic(), gas.size());
+  std::size_t pairs = 0;
+  RodGrid::Overlap worst{};
+  std::array<std::uint32_t, 2> worst_ids{};
   for (Needle i{0}; i < gas.size(); ++i) {
     StopRequest::check_in_turn(i);
     const Record& record = gas.records[i];
@@ -142,13 +166,21 @@ void require_room_for_rods(const Scene& scene, const Gas& gas) {
     }
     const std::array<double, 3> centre = to_array(record.flight.r),
                                 director = to_array(record.flight.u);
-    if (const auto overlap = grid.overlap(centre, director, record.species, gas.touch_tolerance()))
-      throw InputError(fmt::format(
-          "state: rods {} and {} overlap: their axes are {:.4g} apart, less than {:.10g}",
-          gas.ids[Needle(overlap->other)].value, gas.ids[i].value, overlap->distance,
-          overlap->expected));
+    for (const RodGrid::Overlap& overlap :
+         grid.overlaps(centre, director, record.species, gas.touch_tolerance())) {
+      ++pairs;
+      if (pairs > 1 && overlap.expected - overlap.distance <= worst.expected - worst.distance)
+        continue;
+      worst = overlap;
+      worst_ids = {gas.ids[Needle(overlap.other)].value, gas.ids[i].value};
+    }
     grid.enter(centre, director, record.species);
   }
+  if (pairs == 0) return;
+  throw InputError(
+      fmt::format("state: {}rods {} and {} overlap: their axes are {:.4g} apart, less than {:.10g}",
+                  pairs == 1 ? "" : fmt::format("{} pairs of rods overlap; deepest, ", pairs),
+                  worst_ids[0], worst_ids[1], worst.distance, worst.expected));
 }
 
 }  // namespace

@@ -204,6 +204,22 @@ void make_species(hid_t parameters, const Composition& composition, const std::s
   write_pairs("beta", &Restitution::beta);
 }
 
+void make_bodies(hid_t parameters, const Composition& composition, const std::string& place) {
+  if (composition.is_mixture()) return make_species(parameters, composition, place);
+  const auto write = [&](const char* name, double value) {
+    hdf5::write_scalar(parameters, name, value, place);
+  };
+  write("k", composition[0].k);
+  write("length", composition[0].length);
+  write("mass", composition[0].mass);
+  if (composition.has_width()) {
+    write("diameter", composition[0].diameter);
+    write("inertia", composition[0].inertia());
+  }
+  write("epsilon", composition.restitution(0, 0).epsilon);
+  write("beta", composition.restitution(0, 0).beta);
+}
+
 void make_parameters(hid_t file, const Scene& scene, const RunInfo& run, const std::string& place) {
   const Handle parameters = create_group(file, "parameters", place);
   const auto write = [&](const char* name, const auto& value) {
@@ -217,17 +233,14 @@ void make_parameters(hid_t file, const Scene& scene, const RunInfo& run, const s
   write("accuracy", run.accuracy);
   write("threads", static_cast<std::int32_t>(run.threads));
   write("epoch_length", run.epoch_length);
-  const Composition composition = scene.composition();
-  if (composition.is_mixture()) return make_species(parameters.get(), composition, place);
-  write("k", composition[0].k);
-  write("length", composition[0].length);
-  write("mass", composition[0].mass);
-  if (composition.has_width()) {
-    write("diameter", composition[0].diameter);
-    write("inertia", composition[0].inertia());
+  make_bodies(parameters.get(), scene.composition(), place);
+  // FrameFile passes over it.
+  for (const std::string& name : run.assumed) {
+    if (!hdf5::exists(parameters.get(), name, place)) continue;
+    const Handle dataset = hdf5::open_dataset(parameters.get(), name, place);
+    hdf5::write_text_attribute(dataset.get(), "assumed", "not in the file that was imported",
+                               place);
   }
-  write("epsilon", composition.restitution(0, 0).epsilon);
-  write("beta", composition.restitution(0, 0).beta);
 }
 
 }  // namespace

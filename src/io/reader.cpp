@@ -10,6 +10,7 @@
 
 #include "needlework/error.h"
 #include "needlework/h5md.h"
+#include "src/io/bodies.h"
 #include "src/io/frame_rows.h"
 #include "src/io/in_child_process.h"
 #include "src/io/needle_check.h"
@@ -18,9 +19,16 @@
 
 namespace needlework {
 
+static void transfer(Archive& archive, Bodies& bodies) {
+  auto& [names, length, diameter, mass, k] = bodies;
+  archive(names, length, diameter, mass, k);
+}
+
 static void transfer(Archive& archive, State& state) {
-  archive(state.box, state.periodic, state.position, state.velocity, state.orientation,
-          state.angular_velocity, state.image, state.id, state.species);
+  auto& [box, periodic, position, velocity, orientation, angular_velocity, image, id, species,
+         bodies] = state;
+  archive(box, periodic, position, velocity, orientation, angular_velocity, image, id, species,
+          bodies);
 }
 
 }  // namespace needlework
@@ -55,6 +63,7 @@ class FrameReader {
 
   std::size_t count() const { return rows_->count(); }
   std::size_t needles() const { return needles_; }
+  Bodies bodies() const { return read_bodies(source_); }
   std::optional<double> time(std::size_t frame) const;
   State read(std::size_t frame);
 
@@ -139,6 +148,7 @@ State FrameReader::read(std::size_t frame) {
   if (has("id")) state.id = read_ids();
   if (has("species")) state.species = read_species();
   require_needles(state);
+  state.bodies = bodies();
   return state;
 }
 
@@ -345,6 +355,8 @@ FrameFile::~FrameFile() = default;
 
 std::size_t FrameFile::count() const { return implementation_->count; }
 std::size_t FrameFile::needles() const { return implementation_->needles; }
+
+Bodies FrameFile::bodies() const { return implementation_->reader.call<&FrameReader::bodies>(); }
 
 std::optional<double> FrameFile::time(std::size_t frame) const {
   return implementation_->reader.call<&FrameReader::time>(frame);

@@ -3,7 +3,9 @@
 #include <pybind11/stl.h>
 
 #include <optional>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "src/python/arrays.h"
 #include "src/python/parts.h"
@@ -17,11 +19,14 @@ using namespace pybind11::literals;
 using OptionalNumber = std::optional<double>;
 
 /// Position, velocity, orientation and angular velocity, [N][3] each; images, [N][3], ids and
-/// species, [N], which may be absent.
+/// species, [N], which may be absent; and bodies.
 using Images = std::optional<py::array_t<std::int32_t, py::array::c_style>>;
 using Ids = std::optional<py::array_t<std::uint32_t, py::array::c_style>>;
 using SpeciesIndices = std::optional<py::array_t<std::uint8_t, py::array::c_style>>;
-using Arrays = std::tuple<Rows, Rows, Rows, Rows, Images, Ids, SpeciesIndices>;
+/// Names, length, diameter, mass and k of each species, empty where they are not known.
+using Numbers = std::vector<double>;
+using BodyColumns = std::tuple<std::vector<std::string>, Numbers, Numbers, Numbers, Numbers>;
+using Arrays = std::tuple<Rows, Rows, Rows, Rows, Images, Ids, SpeciesIndices, BodyColumns>;
 
 State state_of(const Arrays& arrays) {
   State state;
@@ -34,6 +39,8 @@ State state_of(const Arrays& arrays) {
   if (const SpeciesIndices& species = std::get<6>(arrays)) {
     state.species.assign(species->data(), species->data() + species->size());
   }
+  auto& [names, length, diameter, mass, k] = state.bodies;
+  std::tie(names, length, diameter, mass, k) = std::get<7>(arrays);
   return state;
 }
 
@@ -60,6 +67,7 @@ std::string limited(Run& run, OptionalNumber time, std::optional<std::uint64_t> 
 }  // namespace
 
 void add_run(py::module_& module) {
+  module.attr("no_rotation_given") = runs::no_rotation_given;
   py::class_<Run>(module, "Run")
       .def(py::init(&make_run))
       .def_static("resume", [](const std::string& file) { return std::make_unique<Run>(file); })

@@ -24,6 +24,7 @@
 #include "src/runs/output_path.h"
 #include "src/runs/rod_totals.h"
 #include "src/runs/state_file.h"
+#include "src/scene/adopt_state.h"
 
 namespace needlework::python {
 
@@ -374,6 +375,22 @@ py::dict Run::counters() {
   return out;
 }
 
+namespace {
+
+py::dict columns_of(const Bodies& bodies) {
+  py::list names;
+  for (const std::string& name : bodies.names) names.append(text(name));
+  py::dict out;
+  out["name"] = std::move(names);
+  out["length"] = bodies.length;
+  out["diameter"] = bodies.diameter;
+  out["mass"] = bodies.mass;
+  out["k"] = bodies.k;
+  return out;
+}
+
+}  // namespace
+
 py::dict Run::facts() {
   require_idle();
   const Scene& scene = run_->scene();
@@ -395,6 +412,7 @@ py::dict Run::facts() {
     out["mass"] = composition[0].mass;
     if (composition.has_width()) out["diameter"] = composition[0].diameter;
   }
+  out["bodies"] = columns_of(bodies_of(composition));
   out["search"] = simulation.search();
   out["queue"] = simulation.queue();
   out["isa"] = simulation.isa();

@@ -141,6 +141,19 @@ std::vector<std::string> species_of(const io::Contents& contents) {
   return contents.texts("/parameters/species").value_or(std::vector<std::string>{});
 }
 
+std::vector<double> parameter(const io::Contents& contents, const std::string& name) {
+  const std::string path = "/parameters/" + name;
+  return contents.has(path) ? contents.numbers(path) : std::vector<double>{};
+}
+
+Bodies bodies_of(const io::Contents& contents) {
+  return {.names = species_of(contents),
+          .length = parameter(contents, "length"),
+          .diameter = parameter(contents, "diameter"),
+          .mass = parameter(contents, "mass"),
+          .k = parameter(contents, "k")};
+}
+
 // What the observables of a mixture are of: each species, or each two of them.
 enum class Of { all, species, pairs };
 Of what_of(const std::string& group) {
@@ -200,7 +213,9 @@ Json run_section(const std::string& path, const io::Contents& contents, const Li
   Json out = {{"kind", "run"}, {"file", path}, {"parameters", parameters_of(contents)}};
   const auto text = contents.texts("/parameters/scene");
   std::optional<Scene> scene;
-  if (text && text->size() == 1) scene = recorded_scene(text->front(), path);
+  const Bodies bodies = bodies_of(contents);
+  if (text && text->size() == 1)
+    scene = recorded_scene(text->front(), path, bodies, parameter(contents, "counts"));
   out["scene"] = scene ? scene_facts(*scene) : Json(nullptr);
   // When a caller has replaced the velocities, after which the gas does what no theory says.
   const bool has_changes =
@@ -218,10 +233,8 @@ Json run_section(const std::string& path, const io::Contents& contents, const Li
     }
   }
   BodySizes sizes;
-  for (const auto& [name, values] : {std::pair("/parameters/length", &sizes.lengths),
-                                     {"/parameters/diameter", &sizes.diameters}}) {
-    if (contents.has(name)) *values = contents.numbers(name);
-  }
+  if (!bodies.length.empty()) sizes.lengths = bodies.length;
+  sizes.diameters = bodies.diameter;
   const auto walls = io::single_walls(scene ? scene->walls : std::vector<Scene::Wall>{});
   out["frames"] = frames_of(path, sizes, walls, limits, arrays);
   return out;

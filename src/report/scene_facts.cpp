@@ -11,6 +11,7 @@
 #include "needlework/theory.h"
 #include "src/composition/pair_name.h"
 #include "src/io/formats/material.h"
+#include "src/scene/adopt_state.h"
 #include "src/scene/confinement.h"
 
 namespace needlework::report {
@@ -143,9 +144,15 @@ Json scene_facts(const Scene& scene) {
           {"ratio_of_theory", ratio_of_theory(scene, composition)}};
 }
 
-std::optional<Scene> recorded_scene(const std::string& text, const std::string& name) {
+std::optional<Scene> recorded_scene(const std::string& text, const std::string& name,
+                                    const Bodies& bodies, const std::vector<double>& counts) {
   try {
-    return parse_recorded_scene(text, name);
+    Scene scene = parse_recorded_scene(text, name);
+    if (scene.initial.file.empty()) return scene;
+    adopt_bodies(scene, bodies);
+    for (std::size_t n = 0; n < scene.species.size() && n < counts.size(); ++n)
+      scene.species[n].count = static_cast<std::uint64_t>(counts[n]);
+    return scene;
   } catch (const InputError&) {
     return {};
   }

@@ -12,6 +12,7 @@
 #include "needlework/theory.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/estimates.h"
+#include "src/scene/adopt_state.h"
 #include "src/scene/check.h"
 
 namespace needlework::runs {
@@ -67,10 +68,15 @@ LoadedScene complete_scene(Scene given) {
 
 LoadedScene complete_scene(Scene given, State initial) {
   LoadedScene loaded{.scene = std::move(given), .initial = std::move(initial)};
-  adopt_count_and_box(loaded.scene, *loaded.initial);
+  adopt_state(loaded.scene, *loaded.initial);
   choose_engine(loaded.scene);
   require_memory(loaded.scene);
   return loaded;
+}
+
+std::string warning_of_unknown_bodies(const LoadedScene& loaded) {
+  if (loaded.scene.initial.file.empty() || !loaded.initial) return "";
+  return warning_of_unknown_bodies(loaded.scene, loaded.initial->bodies);
 }
 
 Totals totals_of(const State& state, const Scene& scene) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "needlework/scene.h"
@@ -11,8 +12,8 @@
 
 namespace needlework::runs {
 
-/// A scene that is complete: where its initial state comes from a file, that is read, and count and
-/// box are filled in from it.
+/// A scene that is complete: where its initial state comes from a file, that is read, and count,
+/// box and bodies are filled in from it.
 struct LoadedScene {
   Scene scene;
   std::optional<State> initial;  ///< none: to be drawn
@@ -22,8 +23,13 @@ struct LoadedScene {
 /// Throws InputError for an engine that is not on offer, for a state that does not fit, and for
 /// more needles than the memory of this machine can hold; IoError for a file that cannot be read.
 LoadedScene complete_scene(Scene given);
-/// The same for a scene that starts from this state, of which count and box are filled in.
+/// The same for a scene that starts from this state, of which count, box and bodies are
+/// filled in.
 LoadedScene complete_scene(Scene given, State initial);
+
+/// A warning if the state is from a file that does not say all of its bodies, and neither does the
+/// scene; else empty.
+std::string warning_of_unknown_bodies(const LoadedScene& loaded);
 
 /// The state's sums at time 0.
 Totals totals_of(const State& state, const Scene& scene);

@@ -32,6 +32,10 @@ void require_events(const LoadedScene& loaded, const std::string& path);
 /// Throws InputError if collisions keep the energy and no end but one in energy is set.
 void require_reachable_end(const Scene& scene);
 
+/// What front ends say where a caller sets velocities alone.
+inline constexpr const char* no_rotation_given =
+    "angular_velocity: not given: those of all needles are 0 now";
+
 /// When a run with an output file is saved, besides every output.checkpoint_every.
 enum class Saves {
   start_and_end,  ///< so that a run can be continued beyond its end, too

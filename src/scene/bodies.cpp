@@ -1,11 +1,16 @@
 #include "src/scene/bodies.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "needlework/error.h"
 #include "src/scene/check.h"
+#include "src/scene/confinement.h"
+#include "src/scene/printable.h"
+#include "src/scene/schema.h"
 
 namespace needlework {
 namespace {
@@ -71,6 +76,37 @@ void require_possible_bodies(const Scene& scene) {
   for (std::size_t n = 0; n < scene.species.size(); ++n) require_shape(scene, scene.species[n], n);
   require_one_kind(scene);
   require_smooth(scene);
+}
+
+void require_room_in_box(const Scene& scene) {
+  const Composition composition = scene.composition();
+  const std::array<double, 3>& box = scene.needles.box;
+  const Room room(scene);
+  if (room.holds(box)) return;
+  const std::string_view of = composition.is_mixture() ? ", of the longest species" : "";
+  const bool is_plain =
+      composition.longest() == 1 && scene.walls.empty() && !scene.collisions.sliding;
+  throw InputError(fmt::format(
+      "{}: expected {}", place_of(scene, "needles.box", fmt::format("[{}]", fmt::join(box, ", "))),
+      is_plain ? std::string(find_scene_key("needles", "box")->expected)
+               : fmt::format("{}{}", room.expected_instead_of(box), of)));
+}
+
+void require_pairs_of_species(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Species& each : scene.species) names.push_back(each.name);
+  for (std::size_t n = 0; n < scene.pairs.size(); ++n) {
+    for (const std::string& name : scene.pairs[n].between) {
+      if (std::ranges::find(names, name) != names.end()) continue;
+      const std::string key = n == 0 ? "pairs.between" : fmt::format("pairs.between#{}", n);
+      throw InputError(fmt::format(
+          "{}: expected names of two [[species]]{}{}",
+          place_of(scene, key,
+                   printable(fmt::format("{}", fmt::join(scene.pairs[n].between, "-")))),
+          names.empty() ? "" : ", among ",
+          printable(fmt::format("{}", fmt::join(names, ", ")), 200)));
+    }
+  }
 }
 
 }  // namespace needlework

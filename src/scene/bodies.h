@@ -17,4 +17,9 @@ std::string key_of_species(std::string_view key, std::size_t entry);
 /// beside k. Each value on its own must be in its range.
 void require_possible_bodies(const Scene& scene);
 
+/// The same for a box in which they have no room, and for [[pairs]] of species that there are none
+/// of.
+void require_room_in_box(const Scene& scene);
+void require_pairs_of_species(const Scene& scene);
+
 }  // namespace needlework

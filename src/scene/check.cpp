@@ -1,7 +1,6 @@
 #include "src/scene/check.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -217,71 +216,6 @@ std::vector<std::string> warnings(const Scene& scene) {
 std::string place_of(const Scene& scene, std::string_view key, std::string_view value) {
   const auto found = scene.places.find(key);
   return found == scene.places.end() ? fmt::format("{} = {}", key, value) : found->second;
-}
-
-namespace {
-
-std::string source_of_state(const Scene& scene) {
-  return scene.initial.file.empty() ? "the state" : scene.initial.file;
-}
-
-}  // namespace
-
-void require_count(const Scene& scene, std::size_t count) {
-  const std::uint64_t given = scene.needles.count;
-  if (given == 0 || given == count) return;
-  throw InputError(fmt::format("{}: expected {}, as in {}",
-                               place_of(scene, "needles.count", fmt::to_string(given)), count,
-                               source_of_state(scene)));
-}
-
-namespace {
-
-void adopt_counts_of_species(Scene& scene, const State& state) {
-  if (scene.species.size() == 1) scene.species.front().count = state.size();
-  if (scene.species.size() < 2 || state.species.empty()) return;
-  std::vector<std::uint64_t> counts(scene.species.size());
-  for (const SpeciesIndex index : state.species) {
-    if (index >= counts.size()) {
-      throw InputError(
-          fmt::format("{}: a needle of species {}: expected an index below {}, as there "
-                      "are so many [[species]]",
-                      source_of_state(scene), index, counts.size()));
-    }
-    ++counts[index];
-  }
-  for (std::size_t n = 0; n < counts.size(); ++n) {
-    Species& species = scene.species[n];
-    if (species.count != 0 && species.count != counts[n]) {
-      throw InputError(fmt::format("species.count = {} of {}: expected {}, as in {}", species.count,
-                                   species.name, counts[n], source_of_state(scene)));
-    }
-    species.count = counts[n];
-  }
-}
-
-}  // namespace
-
-void adopt_count_and_box(Scene& scene, const State& state) {
-  require_count(scene, state.size());
-  Scene::Needles& needles = scene.needles;
-  const std::string source = source_of_state(scene);
-  const bool given = needles.box != std::array<double, 3>{};
-  const auto agrees = [](double edge, double expected) {
-    return std::abs(edge - expected) <= 1e-12 * expected;
-  };
-  const auto text = [](const std::array<double, 3>& box) {
-    return fmt::format("[{}]", fmt::join(box, ", "));
-  };
-  if (given && !std::equal(needles.box.begin(), needles.box.end(), state.box.begin(), agrees)) {
-    throw InputError(fmt::format("{}: expected {}, as in {}",
-                                 place_of(scene, "needles.box", text(needles.box)), text(state.box),
-                                 source));
-  }
-  needles.count = state.size();
-  adopt_counts_of_species(scene, state);
-  needles.box = state.box;
-  scene.places.emplace("needles.count", fmt::format("{}: {} needles", source, needles.count));
 }
 
 }  // namespace needlework

@@ -192,10 +192,10 @@ void adopt_shapes(Scene& scene, const std::set<std::string>& given) {
 
 // Writes what the species say in the form that all readers of scenes know: k instead of the moment
 // of inertia, and how many needles there are in all.
-void adopt_species(Scene& scene) {
+void adopt_species(Scene& scene, bool is_drawn) {
   if (scene.species.empty()) return;
   const Composition composition = scene.composition();
-  for (std::size_t n = 0; n < composition.size(); ++n) {
+  for (std::size_t n = 0; is_drawn && n < composition.size(); ++n) {
     scene.species[n].k = composition[n].k;
     scene.species[n].given_inertia.reset();
   }
@@ -304,10 +304,6 @@ void require_names_of_pairs(const Scene& scene, const Document& document,
 
 // Species have different names, and pairs the names of species, each pair once.
 void require_names(const Scene& scene, const Document& document, std::span<const Entry> entries) {
-  const auto is_name = [&](const std::string& name) {
-    return std::any_of(scene.species.begin(), scene.species.end(),
-                       [&](const Species& each) { return each.name == name; });
-  };
   const auto same_pair = [](const Scene::Pair& a, const Scene::Pair& b) {
     return a.between == b.between || (a.between[0] == b.between[1] && a.between[1] == b.between[0]);
   };
@@ -323,15 +319,6 @@ void require_names(const Scene& scene, const Document& document, std::span<const
   for (const Entry& entry : entries) {
     if (full_name(entry) != "pairs.between") continue;
     const Scene::Pair& pair = scene.pairs[entry.number];
-    for (const std::string& name : pair.between) {
-      if (is_name(name)) continue;
-      std::vector<std::string> names;
-      for (const Species& each : scene.species) names.push_back(each.name);
-      throw document.error(
-          entry,
-          fmt::format("expected names of two [[species]]{}{}", names.empty() ? "" : ", among ",
-                      printable(fmt::format("{}", fmt::join(names, ", ")), 200)));
-    }
     for (std::size_t n = 0; n < entry.number; ++n) {
       if (same_pair(scene.pairs[n], pair))
         throw document.error(entry, "expected each two species once");
@@ -345,17 +332,6 @@ void require_ids(const Scene& scene, const Document& document, const Entry& last
   if (count <= most_needles) return;
   throw document.error(last_count, fmt::format("expected at most {} needles of all species, not {}",
                                                most_needles, count));
-}
-
-void require_room(const Scene& scene, const Document& document, const Entry& box) {
-  const Composition composition = scene.composition();
-  const Room room(scene);
-  if (room.holds(scene.needles.box)) return;
-  const std::string_view of = composition.is_mixture() ? ", of the longest species" : "";
-  throw document.error(
-      box, composition.longest() == 1 && scene.walls.empty() && !scene.collisions.sliding
-               ? fmt::format("expected {}", find_scene_key("needles", "box")->expected)
-               : fmt::format("expected {}{}", room.expected_instead_of(scene.needles.box), of));
 }
 
 // For a state that is drawn: what follows from its numbers.
@@ -403,7 +379,7 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
   Scene scene;
   std::set<std::string> given;       // own names, so that each entry of a list has its keys
   std::set<std::string> given_keys;  // those of all entries of a list alike
-  Entry box, last_count;
+  Entry last_count;
   std::vector<Entry> names;
   for (const Entry& entry : with_overrides_applied(with_items_found(document))) {
     if (entry.is_head) {
@@ -419,7 +395,6 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
     if (may_occur_again(entry.section) && !entry.is_repeated && !entry.is_override)
       throw document.error(entry,
                            fmt::format("expected a scene with an entry [[{}]]", entry.section));
-    if (full_name(entry) == "needles.box") box = entry;
     if (full_name(entry) == "species.count") last_count = entry;
     if (full_name(entry) == "species.name" || entry.section == "pairs") names.push_back(entry);
     if (!read_value(scene, *key, entry))
@@ -434,16 +409,19 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
   require_names(scene, document, names);
   require_ids(scene, document, last_count);
   adopt_shapes(scene, given);
-  require_possible_bodies(scene);
+  // A state that is given may say what the scene does not: see adopt_state().
+  const bool is_drawn = !provided.state && scene.initial.file.empty();
+  if (is_drawn) require_possible_bodies(scene);
   // Where there are walls, the room depends on what they need.
   const bool box_given = given.contains("needles.box"), walled = !scene.walls.empty();
-  if (box_given && !walled) require_room(scene, document, box);
+  if (is_drawn && box_given && !walled) require_room_in_box(scene);
   require_what_is_needed(scene, document, given, provided);
+  if (is_drawn || !scene.species.empty()) require_pairs_of_species(scene);
   require_compatible_effects(scene);
   require_walls_to_observe(scene);
-  if (box_given && walled) require_room(scene, document, box);
-  adopt_species(scene);
-  if (!provided.state && scene.initial.file.empty()) require_followable(scene, name);
+  if (is_drawn && box_given && walled) require_room_in_box(scene);
+  adopt_species(scene, is_drawn);
+  if (is_drawn) require_followable(scene, name);
   scene.text = annotated(text, overrides);
   return scene;
 }

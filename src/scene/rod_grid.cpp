@@ -124,15 +124,15 @@ void RodGrid::for_each_near(const Level& level, const Vec3d& r, double reach,
   }
 }
 
-std::optional<RodGrid::Overlap> RodGrid::overlap(const std::array<double, 3>& centre,
-                                                 const std::array<double, 3>& director,
-                                                 SpeciesIndex species, double tolerance) const {
+template <class Visit>
+void RodGrid::visit_overlaps(const std::array<double, 3>& centre,
+                             const std::array<double, 3>& director, SpeciesIndex species,
+                             double tolerance, Visit&& visit) const {
   const kernels::Flight flight = at_rest(centre, director);
   const auto image = [&](double apart, std::size_t axis) {
     return periodic_[axis] ? box_[axis] * std::nearbyint(apart / box_[axis]) : 0;
   };
   const Species& its = composition_[species];
-  std::optional<Overlap> out;
   const auto compare = [&](std::uint32_t i) {
     const Rod& other = rods_[i];
     const Vec3d apart = flight.r - other.flight.r;
@@ -150,14 +150,31 @@ std::optional<RodGrid::Overlap> RodGrid::overlap(const std::array<double, 3>& ce
     pair.half_second = 0.5 * others.length;
     pair.distance = distance;
     const double gap = gap_of(pair, nearest, reach);
-    if (gap >= -tolerance || (out && out->other < i)) return;
-    out = Overlap{i, distance + gap, distance};
+    if (gap < -tolerance) visit(Overlap{i, distance + gap, distance});
   };
   for (const Level& level : levels_) {
     if (level.entered == 0) continue;
     for_each_near(level, flight.r, 0.5 * (its.extent() + level.extent), compare);
   }
-  return out;
+}
+
+std::optional<RodGrid::Overlap> RodGrid::overlap(const std::array<double, 3>& centre,
+                                                 const std::array<double, 3>& director,
+                                                 SpeciesIndex species, double tolerance) const {
+  std::optional<Overlap> first;
+  visit_overlaps(centre, director, species, tolerance, [&](const Overlap& overlap) {
+    if (!first || overlap.other < first->other) first = overlap;
+  });
+  return first;
+}
+
+std::vector<RodGrid::Overlap> RodGrid::overlaps(const std::array<double, 3>& centre,
+                                                const std::array<double, 3>& director,
+                                                SpeciesIndex species, double tolerance) const {
+  std::vector<Overlap> all;
+  visit_overlaps(centre, director, species, tolerance,
+                 [&](const Overlap& overlap) { all.push_back(overlap); });
+  return all;
 }
 
 void RodGrid::enter(const std::array<double, 3>& centre, const std::array<double, 3>& director,

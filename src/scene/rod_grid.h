@@ -30,10 +30,18 @@ class RodGrid {
   std::optional<Overlap> overlap(const std::array<double, 3>& centre,
                                  const std::array<double, 3>& director, SpeciesIndex species,
                                  double tolerance) const;
+  /// All of them, in no order.
+  std::vector<Overlap> overlaps(const std::array<double, 3>& centre,
+                                const std::array<double, 3>& director, SpeciesIndex species,
+                                double tolerance) const;
   void enter(const std::array<double, 3>& centre, const std::array<double, 3>& director,
              SpeciesIndex species);
 
  private:
+  template <class Visit>
+  void visit_overlaps(const std::array<double, 3>& centre, const std::array<double, 3>& director,
+                      SpeciesIndex species, double tolerance, Visit&& visit) const;
+
   struct Rod {
     kernels::Flight flight;
     SpeciesIndex species;

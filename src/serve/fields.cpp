@@ -97,6 +97,32 @@ std::optional<std::string> bytes_in(const Json& request, const char* field) {
   }
 }
 
+std::optional<Bodies> bodies_in(const Json& request, const char* field) {
+  const Json* value = find(request, field);
+  if (!value) return std::nullopt;
+  constexpr const char* expected = "an object of lists: name, length, diameter, mass, k";
+  if (!value->is_object()) throw wrong(field, *value, expected);
+  Bodies bodies;
+  for (const auto& [key, list] : value->items()) {
+    std::vector<double>* numbers = key == "length"     ? &bodies.length
+                                   : key == "diameter" ? &bodies.diameter
+                                   : key == "mass"     ? &bodies.mass
+                                   : key == "k"        ? &bodies.k
+                                                       : nullptr;
+    const auto is_good = [&](const Json& each) {
+      return numbers ? each.is_number() : key == "name" && each.is_string();
+    };
+    if (!list.is_array() || !std::ranges::all_of(list, is_good))
+      throw wrong(field, *value, expected);
+    if (numbers) {
+      *numbers = list.get<std::vector<double>>();
+    } else {
+      bodies.names = list.get<std::vector<std::string>>();
+    }
+  }
+  return bodies;
+}
+
 std::optional<std::vector<std::array<double, 3>>> vectors_in(const Json& request,
                                                              const char* field) {
   return rows_in<std::array<double, 3>>(request, field, "three numbers of 8 bytes");

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "needlework/state.h"
 #include "src/serve/requests.h"
 
 namespace needlework::serve {
@@ -32,6 +33,9 @@ std::optional<std::vector<std::array<std::int32_t, 3>>> images_in(const Json& re
                                                                   const char* field);
 std::optional<std::vector<std::uint32_t>> ids_in(const Json& request, const char* field);
 std::optional<std::vector<std::uint8_t>> species_in(const Json& request, const char* field);
+/// An object {name, length, diameter, mass, k} of lists, one entry for each species, which may be
+/// missing.
+std::optional<Bodies> bodies_in(const Json& request, const char* field);
 /// One number for each of `count` pairs: an array in base64, or a number that is that of all.
 std::optional<std::vector<double>> numbers_in(const Json& request, const char* field,
                                               std::size_t count);

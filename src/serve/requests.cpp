@@ -16,6 +16,7 @@
 #include "src/runs/load_checkpoint.h"
 #include "src/runs/output_path.h"
 #include "src/runs/state_file.h"
+#include "src/scene/adopt_state.h"
 #include "src/scene/confinement.h"
 #include "src/scene/printable.h"
 #include "src/serve/arrays.h"
@@ -53,6 +54,16 @@ Json summary_of(const runs::PreparedRun& run) {
   return answer;
 }
 
+Json json_of(const Bodies& bodies) {
+  Json out = Json::object();
+  if (!bodies.names.empty()) out["name"] = bodies.names;
+  out["length"] = bodies.length;
+  out["diameter"] = bodies.diameter;
+  out["mass"] = bodies.mass;
+  out["k"] = bodies.k;
+  return out;
+}
+
 /// The state that the request carries; none if it carries no array.
 std::optional<State> state_in(const Json& request) {
   State state;
@@ -68,7 +79,9 @@ std::optional<State> state_in(const Json& request) {
   const bool image = read(images_in(request, "image"), state.image);
   const bool id = read(ids_in(request, "needle_id"), state.id);
   const bool species = read(species_in(request, "species"), state.species);
-  if (!(position || orientation || velocity || angular_velocity || image || id || species)) {
+  const bool bodies = read(bodies_in(request, "bodies"), state.bodies);
+  if (!(position || orientation || velocity || angular_velocity || image || id || species ||
+        bodies)) {
     return std::nullopt;
   }
   if (!position || !orientation) {
@@ -238,12 +251,13 @@ runs::PreparedRun& Requests::run_of(const Json& request) {
 
 Json Requests::create(const Json& request, const Connection&) {
   require_only(request, {"scene", "path", "force", "position", "orientation", "velocity",
-                         "angular_velocity", "image", "needle_id", "species"});
+                         "angular_velocity", "image", "needle_id", "species", "bodies"});
   const bool force = flag_in(request, "force");
   runs::LoadedScene loaded = scene_in(request);
   runs::require_writable_output(loaded.scene, force, text_in(request, "path").value_or(""),
                                 "\"force\": true");
-  return add(std::make_unique<runs::PreparedRun>(std::move(loaded), force));
+  const std::string warning = runs::warning_of_unknown_bodies(loaded);
+  return add(std::make_unique<runs::PreparedRun>(std::move(loaded), force), warning);
 }
 
 Json Requests::resume(const Json& request, const Connection&) {
@@ -251,13 +265,11 @@ Json Requests::resume(const Json& request, const Connection&) {
   const auto file = text_in(request, "file");
   if (!file) throw RequestError("file: expected the output file of a run");
   auto [saved, warning] = runs::load_checkpoint(*file);
-  Json answer = add(std::make_unique<runs::PreparedRun>(std::move(saved)));
-  if (!warning.empty()) answer["warning"] = runs::joined(warning, answer.value("warning", ""));
-  return answer;
+  return add(std::make_unique<runs::PreparedRun>(std::move(saved)), warning);
 }
 
 /// Takes a run in, and returns what there is to say of it.
-Json Requests::add(std::unique_ptr<runs::PreparedRun> run) {
+Json Requests::add(std::unique_ptr<runs::PreparedRun> run, const std::string& warning) {
   const Simulation& simulation = run->simulation();
   Json answer{{"simulation", next_},
               {"needles", simulation.needles()},
@@ -265,7 +277,8 @@ Json Requests::add(std::unique_ptr<runs::PreparedRun> run) {
               {"search", simulation.search()},
               {"isa", simulation.isa()},
               {"effects", simulation.effects()}};
-  if (const std::string warning = run->warning(); !warning.empty()) answer["warning"] = warning;
+  if (const std::string all = runs::joined(warning, run->warning()); !all.empty())
+    answer["warning"] = all;
   runs_.emplace(next_++, std::move(run));
   return answer;
 }
@@ -302,15 +315,18 @@ Json Requests::state(const Json& request, const Connection&) {
     runs::write_state(run.simulation(), run.scene(), run.data(), *file, flag_in(request, "force"));
     return {{"file", *file}};
   }
-  static constexpr std::array<std::string_view, 7> arrays{
-      "position", "velocity", "orientation", "angular_velocity", "image", "needle_id", "species"};
+  static constexpr std::array<std::string_view, 8> arrays{
+      "position", "velocity",  "orientation", "angular_velocity",
+      "image",    "needle_id", "species",     "bodies"};
   const auto wanted = names_in(request, "arrays", arrays);
   State state = run.simulation().copy();
   state.species.resize(state.size());  // of one species all are 0
   Json answer{{"time", run.simulation().time()}, {"needles", state.size()}};
+  const auto is_wanted = [&](std::string_view name) {
+    return !wanted || std::ranges::find(*wanted, name) != wanted->end();
+  };
   const auto add = [&](std::string_view name, const auto& rows) {
-    if (wanted && std::ranges::find(*wanted, name) == wanted->end()) return;
-    answer[std::string(name)] = text_of(rows);
+    if (is_wanted(name)) answer[std::string(name)] = text_of(rows);
   };
   add("position", state.position);
   add("velocity", state.velocity);
@@ -319,6 +335,7 @@ Json Requests::state(const Json& request, const Connection&) {
   add("image", state.image);
   add("needle_id", state.id);
   add("species", state.species);
+  if (is_wanted("bodies")) answer["bodies"] = json_of(bodies_of(run.simulation().composition()));
   return answer;
 }
 
@@ -371,11 +388,13 @@ Json Requests::velocities(const Json& request, const Connection&) {
   runs::PreparedRun& run = run_of(request);
   const auto velocity = vectors_in(request, "velocity");
   const auto angular_velocity = vectors_in(request, "angular_velocity");
-  if (!velocity || !angular_velocity) {
-    throw RequestError("velocity, angular_velocity: expected both");
-  }
-  run.set_velocities(*velocity, *angular_velocity);
-  return summary_of(run);
+  if (!velocity) throw RequestError("velocity: expected the velocities of all needles");
+  run.set_velocities(
+      *velocity, angular_velocity.value_or(std::vector<std::array<double, 3>>(velocity->size())));
+  Json answer = summary_of(run);
+  if (!angular_velocity && !run.simulation().composition().are_spheres())
+    answer["warning"] = runs::no_rotation_given;
+  return answer;
 }
 
 Json Requests::predict(const Json& request, const Connection&) { return first_contacts(request); }

@@ -52,7 +52,7 @@ class Requests {
   Json close(const Json& request, const Connection&);
 
   runs::PreparedRun& run_of(const Json& request);
-  Json add(std::unique_ptr<runs::PreparedRun> run);
+  Json add(std::unique_ptr<runs::PreparedRun> run, const std::string& warning);
 
   std::map<std::int64_t, std::unique_ptr<runs::PreparedRun>> runs_;
   std::int64_t next_ = 1;

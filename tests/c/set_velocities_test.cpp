@@ -38,6 +38,16 @@ TEST(CSetVelocities, ReplacesThemAndNothingElse) {
   simulation.run_to(100);
 }
 
+TEST(CSetVelocities, StopsAllRotationWithAWordWhereNoneIsGiven) {
+  const CSimulation simulation(cooling);
+  const Arrays arrays(simulation);
+  const Velocities velocities(arrays);
+  EXPECT_EQ(needlework_set_velocities(simulation, &velocities.v, nullptr), NEEDLEWORK_OK);
+  EXPECT_EQ(simulation.message(), "angular_velocity: not given: those of all needles are 0 now");
+  EXPECT_EQ(simulation.totals().t_rot, 0);
+  EXPECT_EQ(Arrays(simulation).velocity, arrays.velocity);
+}
+
 TEST(CSetVelocities, TakesAnyLayout) {
   const CSimulation rows(cooling), columns(cooling);
   Arrays arrays(rows);

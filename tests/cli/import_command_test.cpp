@@ -99,6 +99,51 @@ TEST_F(ImportCommand, AssumesWallsWhereABoxIsNotPeriodic) {
   EXPECT_TRUE(refused.complains("not periodic along x, with walls along others: expected walls"));
 }
 
+TEST_F(ImportCommand, WhatItAssumesMayBeSaidOtherwise) {
+  const std::string text =
+      "1\nLattice=\"6 0 0 0 6 0 0 0 6\" Properties=species:S:1:pos:R:3:velo:R:3:orientation:R:3:"
+      "angular_velocity:R:3 length=1 mass=1 epsilon=1\nX 1 3 3 1 0 0 1 0 0 0 1 0\n";
+  write("a.xyz", text);
+  ASSERT_TRUE(run("import a.xyz --out a").complains("k is not in the file: 6 is assumed"));
+  EXPECT_EQ(run("check a/scene.toml --set species.k=3").exit_code, 0);
+  const Outcome longer = run("check a/scene.toml --set species.length=2");
+  EXPECT_EQ(longer.exit_code, 3);
+  EXPECT_TRUE(longer.complains("--set species.length=2: expected 1, as in "));
+}
+
+TEST_F(ImportCommand, TellsOfBodiesThatOverlap) {
+  const std::string text =
+      "4\nLattice=\"6 0 0 0 6 0 0 0 6\" Properties=species:S:1:pos:R:3:velo:R:3:orientation:R:3:"
+      "angular_velocity:R:3 length=0 diameter=1 mass=1 k=6 epsilon=1\n";
+  const std::string rest = " 3 3 1 0 0 1 0 0 0 0 0\n";
+  write("a.xyz", text + "X 1" + rest + "X 1.75" + rest + "X 2.25" + rest + "X 5" + rest);
+  const Outcome imported = run("import a.xyz --out a");
+  EXPECT_EQ(imported.exit_code, 0);
+  const std::string overlaps =
+      "2 pairs of rods overlap; deepest, rods 1 and 2 overlap: their axes are 0.5 apart, less than "
+      "1";
+  EXPECT_TRUE(imported.complains("a.xyz: cannot be run as it is: state: " + overlaps));
+  const Outcome checked = run("check a/scene.toml");
+  EXPECT_EQ(checked.exit_code, 3);
+  EXPECT_TRUE(checked.complains(overlaps));
+}
+
+TEST_F(ImportCommand, TakesTheFrameThatIsAskedFor) {
+  const std::string head =
+      "1\nLattice=\"6 0 0 0 6 0 0 0 6\" Properties=species:S:1:pos:R:3:velo:R:3:orientation:R:3:"
+      "angular_velocity:R:3 length=1 mass=1 k=6 epsilon=1\nX ";
+  const std::string rest = " 3 3 1 0 0 1 0 0 0 1 0\n";
+  write("a.xyz", head + "1" + rest + head + "2" + rest + head);
+  const Outcome cut = run("import a.xyz --out a");
+  EXPECT_EQ(cut.exit_code, 3);
+  EXPECT_TRUE(cut.complains("the 2 frames before it are whole: --frame 1 reads the last of them"));
+  for (const auto& [frame, place] : {std::pair("1", 2.0), {"first", 1.0}}) {
+    ASSERT_EQ(run("import a.xyz --force --out a --frame " + std::string(frame)).exit_code, 0);
+    EXPECT_EQ(io::read_last_frame(path("a/state.h5")).position[0][0], place);
+  }
+  EXPECT_EQ(run("import a.xyz --out b --frame all").exit_code, 2);
+}
+
 TEST_F(ImportCommand, OtherCommandsNameIt) {
   write("lines.xml", dynamo_text);
   EXPECT_TRUE(

@@ -77,6 +77,38 @@ class ForeignFiles(unittest.TestCase):
                 with self.assertRaisesRegex(InputError, "is missing: expected"):
                     getattr(recording, missing)
 
+    def test_bodies_go_along_with_a_state(self):
+        rods = {"needles": {"box": 9.0}, "species": [
+            {"name": "rod", "count": 4, "length": 2, "mass": 4, "k": 2, "diameter": 0.5},
+            {"name": "ball", "count": 3, "length": 0, "diameter": 1}]}
+        sim = Simulation(rods)
+        sim.save(str(self.path), force=True)
+        with read(self.path) as recording:
+            state = recording.frames[-1].state
+        self.assertEqual(state.bodies.name, ("rod", "ball"))
+        self.assertEqual(state.to_pandas().shape, (7, 17))
+        for source in (state, sim.state):
+            again = Simulation({"needles": {"box": 9.0}}, **source)
+            self.assertEqual(again.totals.t_rot, sim.totals.t_rot)
+            self.assertEqual(again.gas.species, ("rod", "ball"))
+            with self.assertRaisesRegex(InputError, "needles.k = 6: expected 2, as in the state"):
+                Simulation({"needles": {"box": 9.0, "k": 6}}, **source)
+        with self.assertRaisesRegex(InputError, "bodies: color: expected name, length"):
+            Simulation({"needles": {"box": 9.0}}, **{**state, "bodies": {"color": [1]}})
+
+    def test_bodies_of_other_programs_have_their_mass(self):
+        def masses(values):
+            def change(file):
+                file[ROOT + "mass"] = values
+            return change
+        self.make(change=masses(np.full(4, 3.0)))
+        with read(self.path) as recording:
+            bodies = recording.frames[-1].state.bodies
+            self.assertEqual(dict(bodies), {"mass": [3.0]})
+        with self.assertWarnsRegex(UserWarning, "says no length, no diameter, no k of its bodies"):
+            sim = Simulation({"initial": {"file": str(self.path)}})
+        self.assertEqual(sim.gas.mass, 3.0)
+
     def test_needles_is_preferred_to_other_groups(self):
         self.make(change=lambda file: file.move("particles/rods", "particles/needles"))
         with h5py.File(self.path, "a") as file:

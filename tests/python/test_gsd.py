@@ -13,6 +13,11 @@ import needlework
 import numpy as np
 from needlework.gsd_file import capsule, quaternions
 
+# The package's names before version 2.8, and since.
+RECENT = hasattr(gsd.hoomd, "Frame")
+SNAPSHOT = gsd.hoomd.Frame if RECENT else gsd.hoomd.Snapshot
+MODE = {"r": "r", "w": "w"} if RECENT else {"r": "rb", "w": "wb"}
+
 
 def turned(q):
     """What the quaternions (w, x, y, z) make of (0, 0, 1)."""
@@ -20,7 +25,7 @@ def turned(q):
     return np.stack([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x**2 + y**2)], axis=1)
 
 
-class ToGsd(unittest.TestCase):
+class GsdFiles(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
@@ -47,7 +52,7 @@ class ToGsd(unittest.TestCase):
         out = self.path("run.gsd")
         with needlework.read(self.run) as run:
             self.assertEqual(needlework.to_gsd(self.run, out), len(run.frames))
-            with gsd.hoomd.open(out, "rb") as file:
+            with gsd.hoomd.open(out, MODE["r"]) as file:
                 self.assertEqual(len(file), len(run.frames))
                 for snapshot, frame in zip(file, run.frames):
                     self.assert_same(snapshot, frame)
@@ -65,7 +70,7 @@ class ToGsd(unittest.TestCase):
         for path, last in ((out, 0), (self.path("state.gsd"), 0), (self.path("run.gsd"), 1)):
             if last:
                 needlework.to_gsd(self.run, path)
-            with gsd.hoomd.open(path, "rb") as file:
+            with gsd.hoomd.open(path, MODE["r"]) as file:
                 self.assertEqual(file[0].log["periodic"].tolist(), [1, 1, last])
 
     def test_bodies_beyond_the_edges(self):
@@ -77,7 +82,7 @@ class ToGsd(unittest.TestCase):
             needlework.to_gsd(sim, out)
             position, box = sim.position, sim.box
         self.assertGreater(position[:, 2].max(), box[2])
-        with gsd.hoomd.open(out, "rb") as file:
+        with gsd.hoomd.open(out, MODE["r"]) as file:
             log, found = file[0].log, file[0].particles.position
             self.assertTrue(np.all(np.abs(found) <= file[0].configuration.box[:3] / 2))
             np.testing.assert_array_equal(log["edges"], box)
@@ -87,7 +92,7 @@ class ToGsd(unittest.TestCase):
         out = self.path("last.gsd")
         with needlework.read(self.run) as run:
             self.assertEqual(needlework.to_gsd(run, out, frames=-1), 1)
-            with gsd.hoomd.open(out, "rb") as file:
+            with gsd.hoomd.open(out, MODE["r"]) as file:
                 self.assert_same(file[0], run.frames[-1])
 
     def test_state_of_a_simulation(self):
@@ -95,7 +100,7 @@ class ToGsd(unittest.TestCase):
         sim.advance(collisions=100)
         out = self.path("now.gsd")
         needlework.to_gsd(sim, out)
-        with gsd.hoomd.open(out, "rb") as file:
+        with gsd.hoomd.open(out, MODE["r"]) as file:
             self.assert_same(file[0], sim)
             self.assertEqual(file[0].configuration.step, 100)
             self.assertAlmostEqual(file[0].particles.moment_inertia[0][0], 1 / 12, places=6)
@@ -104,7 +109,7 @@ class ToGsd(unittest.TestCase):
         scene = {"needles": {"box": 9}, "species": [{"name": "long", "count": 30, "length": 3}]}
         out = self.path("long.gsd")
         needlework.to_gsd(needlework.Simulation(scene), out)
-        with gsd.hoomd.open(out, "rb") as file:
+        with gsd.hoomd.open(out, MODE["r"]) as file:
             shape, = file[0].particles.type_shapes
             self.assertEqual(shape, {"type": "Ellipsoid", "a": 0.06, "b": 0.06, "c": 1.5})
 
@@ -114,7 +119,7 @@ class ToGsd(unittest.TestCase):
             {"name": "ball", "count": 5, "length": 0, "diameter": 1.5}]}
         out = self.path("rods.gsd")
         needlework.to_gsd(needlework.Simulation(scene), out)
-        with gsd.hoomd.open(out, "rb") as file:
+        with gsd.hoomd.open(out, MODE["r"]) as file:
             snapshot = file[0]
             rod, ball = snapshot.particles.type_shapes
             self.assertEqual(ball, {"type": "Sphere", "diameter": 1.5})
@@ -149,7 +154,7 @@ class ToGsd(unittest.TestCase):
             sim.run(time=0.1)
         out = self.path("mixture.gsd")
         needlework.to_gsd(run, out)
-        with gsd.hoomd.open(out, "rb") as file:
+        with gsd.hoomd.open(out, MODE["r"]) as file:
             particles = file[-1].particles
             self.assertEqual(particles.types, ["short", "long"])
             np.testing.assert_array_equal(particles.typeid, [0] * 20 + [1] * 10)
@@ -158,6 +163,53 @@ class ToGsd(unittest.TestCase):
             np.testing.assert_allclose(particles.moment_inertia[:, 0],
                                        [3 * 0.25 / 4] * 20 + [4 / 12] * 10, rtol=1e-6)
             self.assertEqual([shape["c"] for shape in particles.type_shapes], [0.25, 1])
+
+    def test_a_frame_is_read_back(self):
+        out = self.path("mixture.gsd")
+        rods = {"needles": {"box": 9}, "species": [
+            {"name": "rod", "count": 10, "length": 3, "diameter": 0.5, "inertia": 2},
+            {"name": "ball", "count": 5, "length": 0, "diameter": 1.5, "mass": 0.1}]}
+        sim = needlework.Simulation(rods)
+        needlework.to_gsd(sim, out)
+        frame = needlework.from_gsd(out)
+        again = needlework.Simulation(rods, **frame.state)
+        np.testing.assert_array_equal(frame.box, [9, 9, 9])
+        for name in ("position", "velocity", "orientation", "angular_velocity"):
+            np.testing.assert_allclose(getattr(again, name), getattr(sim, name), atol=1e-5)
+        self.assertEqual(dict(frame.state.bodies)["name"], ("rod", "ball"))
+        silent = needlework.Simulation({"needles": {"box": 9}}, **frame.state)
+        self.assertAlmostEqual(silent.totals.t_rot, sim.totals.t_rot, places=5)
+        with self.assertRaisesRegex(needlework.InputError, "frame 7: expected one of those"):
+            needlework.from_gsd(out, 7)
+
+    def test_rotation_of_hoomd_blue_is_read(self):
+        snapshot = SNAPSHOT()
+        snapshot.configuration.box = [6, 6, 6, 0, 0, 0]
+        particles = snapshot.particles
+        particles.N = 1
+        particles.types = ["A"]
+        particles.type_shapes = [{"type": "Ellipsoid", "a": 0.1, "b": 0.1, "c": 1.0}]
+        particles.typeid = [0]
+        particles.position, particles.velocity = [[-2, 0, 1]], [[1, 0, 0]]
+        particles.mass, particles.moment_inertia = [3.0], [[0.5, 0.5, 0.1]]
+        half = np.sqrt(0.5)
+        q = np.array([half, half, 0, 0])  # a quarter turn about x: the director is -y
+        particles.orientation = [q]
+        # 2 q (0, L) with L = (1, 2, 0.3) in the frame of the particle
+        w, axis, momentum = q[0], q[1:], np.array([1, 2, 0.3])
+        particles.angmom = [[-2 * axis @ momentum, *2 * (w * momentum + np.cross(axis, momentum))]]
+        out = self.path("hoomd.gsd")
+        with gsd.hoomd.open(out, MODE["w"]) as file:
+            file.append(snapshot)
+        frame = needlework.from_gsd(out)
+        state = frame.state
+        np.testing.assert_allclose(state.position, [[1, 3, 4]])
+        np.testing.assert_allclose(state.orientation, [[0, -1, 0]], atol=1e-7)
+        # L / I = (2, 4) along x and y of the particle, which are x and z of the box
+        np.testing.assert_allclose(state.angular_velocity, [[2, 0, 4]], atol=1e-6)
+        self.assertEqual({name: value[0] for name, value in state.bodies.items()},
+                         {"length": 2, "diameter": 0, "mass": 3, "k": 12})
+        self.assertTrue(np.isnan(frame.time))
 
     def test_existing_files_are_kept(self):
         out = self.path("run.gsd")

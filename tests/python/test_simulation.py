@@ -276,6 +276,12 @@ class State(unittest.TestCase):
         self.assertEqual(sim.totals.collisions, 100)
         sim.advance(collisions=100)
 
+    def test_velocities_alone_stop_all_rotation(self):
+        sim = Simulation(GAS)
+        with self.assertWarnsRegex(UserWarning, "angular_velocity: not given: .* are 0 now"):
+            sim.set_velocities(sim.velocity)
+        self.assertEqual(sim.totals.t_rot, 0)
+
     def test_values_are_read_only_mappings(self):
         totals = Simulation(GAS).totals
         self.assertEqual(dict(totals)["energy"], totals.energy)

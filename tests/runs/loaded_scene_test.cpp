@@ -10,7 +10,9 @@
 #include "needlework/error.h"
 #include "needlework/h5md.h"
 #include "needlework/initial_state.h"
+#include "needlework/parse.h"
 #include "src/runs/engine_choice.h"
+#include "src/runs/state_file.h"
 #include "tests/support/runs.h"
 #include "tests/support/temporary_folder.h"
 
@@ -62,6 +64,50 @@ TEST(LoadedScene, ReadsTheInitialStateWhoseCountAndBoxTheSceneMayGive) {
   refused(2, {}, "needles.count = 2: expected 3, as in ");
   refused(0, {3, 3, 4}, "needles.box = [3, 3, 4]: expected [3, 3, 3], as in ");
   refused(0, {0, 3, 3}, "needles.box = [0, 3, 3]: expected [3, 3, 3], as in ");
+}
+
+// On the way through a file, which a scene without a word of its bodies starts from.
+TEST(LoadedScene, HasTheBodiesOfTheFile) {
+  const test::TemporaryFolder folder;
+  const std::string file = (folder.path() / "rods.h5").string();
+  const std::string text = "initial.file = \"" + file + "\"\nuntil.time = 1\n";
+  const LoadedScene drawn = complete_scene(parse_scene(
+      "needles.box = 9\nuntil.time = 1\n[[species]]\nname = \"rod\"\ncount = 4\nlength = 2\n"
+      "mass = 4\nk = 2\ndiameter = 0.5\n[[species]]\nname = \"ball\"\ncount = 3\nlength = 0\n"
+      "diameter = 1\n",
+      "drawn.toml"));
+  const Simulation simulation(drawn.scene);
+  write_state(simulation, drawn.scene, {}, file, false);
+
+  const LoadedScene again = complete_scene(parse_scene(text, "again.toml"));
+  EXPECT_EQ(warning_of_unknown_bodies(again), "");
+  const Simulation continued(again.scene, *again.initial);
+  EXPECT_EQ(continued.totals().t_rot, simulation.totals().t_rot);
+  EXPECT_EQ(continued.totals().energy, simulation.totals().energy);
+  EXPECT_EQ(again.scene.species[1].name, "ball");
+  EXPECT_THROW(complete_scene(parse_scene(text + "needles.k = 6", "other.toml")), InputError);
+  // Nor can a program in C++ take it for one of needles.
+  Scene needles = test::scene_of(7, 9);
+  EXPECT_THROW(Simulation(needles, *again.initial), InputError);
+}
+
+TEST(LoadedScene, WarnsOfAFileThatDoesNotSayItsBodies) {
+  const test::TemporaryFolder folder;
+  const std::string file = (folder.path() / "start.h5").string();
+  const Scene drawn = test::scene_of(3, 3);
+  io::RunInfo info;
+  info.assumed = {"length", "k"};
+  io::Writer writer(file, true, drawn, info);
+  writer.write_frame({}, draw_initial_state(drawn));
+  writer.close();
+  const std::string text = "initial.file = \"" + file + "\"\nuntil.time = 1\n";
+  const LoadedScene loaded = complete_scene(parse_scene(text, "s.toml"));
+  const std::string warning = warning_of_unknown_bodies(loaded);
+  EXPECT_NE(warning.find(": says no length, no diameter, no k of its bodies"), warning.npos)
+      << warning;
+  // What was assumed may be said otherwise.
+  const Scene other = complete_scene(parse_scene(text + "needles.k = 2", "s.toml")).scene;
+  EXPECT_EQ(other.composition()[0].k, 2);
 }
 
 TEST(LoadedScene, HasAnEngineThatIsOnOffer) {

@@ -176,6 +176,14 @@ TEST(Serve, ReplacesVelocities) {
   EXPECT_EQ(answers[2]["stop"], "nothing_can_happen");
 }
 
+TEST(Serve, StopsAllRotationWithAWordWhereNoneIsGiven) {
+  const std::vector<std::array<double, 3>> ones(60, {1, 0, 0});
+  auto answers = answers_to(
+      {create(), {{"do", "velocities"}, {"simulation", 1}, {"velocity", text_of(ones)}}});
+  EXPECT_EQ(answers[1]["t_rot"], 0) << answers[1];
+  EXPECT_EQ(answers[1]["warning"], "angular_velocity: not given: those of all needles are 0 now");
+}
+
 // Rows of an array in an answer.
 template <class Row>
 std::vector<Row> rows_in(Json& answer, const char* name) {
@@ -259,6 +267,27 @@ TEST(Serve, RefusesBatchesAndFieldsThatMeanNothing) {
   ASSERT_EQ(answers.size(), 8u);
   for (std::size_t n = 1; n < 7; ++n) EXPECT_EQ(answers[n]["code"], 2) << answers[n];
   EXPECT_EQ(answers[7]["collisions"], 0);
+}
+
+TEST(Serve, HandsBodiesOverWithAState) {
+  const char* rods =
+      "needles.box = 9\n[[species]]\nname = \"rod\"\ncount = 4\nlength = 2\nmass = 4\nk = 2\n"
+      "diameter = 0.5\n[[species]]\nname = \"ball\"\ncount = 3\nlength = 0\ndiameter = 1\n";
+  auto first = answers_to({{{"do", "create"}, {"scene", rods}},
+                           {{"do", "totals"}, {"simulation", 1}},
+                           {{"do", "state"}, {"simulation", 1}}});
+  Json again = first[2];
+  for (const char* field : {"ok", "time", "needles"}) again.erase(field);
+  again["do"] = "create";
+  again["scene"] = "needles.box = 9";
+  Json needles = again, wrong = again;
+  needles["scene"] = "needles = { box = 9, k = 6 }";
+  wrong["bodies"] = Json{{"colour", {1}}};
+  auto second = answers_to({again, {{"do", "totals"}, {"simulation", 1}}, needles, wrong});
+  EXPECT_EQ(second[1]["t_rot"], first[1]["t_rot"]) << second[1];
+  EXPECT_EQ(second[1]["species"][1]["name"], "ball");
+  EXPECT_EQ(second[2]["code"], 3) << second[2];
+  EXPECT_EQ(second[3]["code"], 2) << second[3];
 }
 
 TEST(Serve, SendsTheArraysOfAStateThatAreChosen) {

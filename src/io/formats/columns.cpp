@@ -82,12 +82,13 @@ std::pair<const char*, std::vector<double> Material::*> const materials[] = {
 
 void require_all_vectors(const Columns& columns, const ColumnNames& names, const Row& head) {
   std::vector<std::string> missing;
-  for (const auto& [name, vector, expected] :
-       {std::tuple("position", columns.position, names.position),
-        std::tuple("velocity", columns.velocity, names.velocity),
-        std::tuple("orientation", columns.orientation, names.orientation),
-        std::tuple("angular velocity", columns.angular_velocity, names.angular_velocity)}) {
-    if (!vector) missing.push_back(fmt::format("no {}: expected the columns {}", name, expected));
+  for (const auto& [name, known, expected] :
+       {std::tuple("position", columns.position.has_value(), names.position),
+        std::tuple("velocity", columns.velocity || columns.momentum, names.velocity),
+        std::tuple("orientation", columns.orientation || columns.quaternion, names.orientation),
+        std::tuple("angular velocity", columns.angular_velocity || columns.angular_momentum,
+                   names.angular_velocity)}) {
+    if (!known) missing.push_back(fmt::format("no {}: expected the columns {}", name, expected));
   }
   if (!missing.empty()) head.reject(fmt::format("{}", fmt::join(missing, "; ")));
 }
@@ -112,7 +113,8 @@ void NeedleReader::read(const Row& row) {
   if (columns_.edges) take_edges(row);
   read_rotation(row);
   read_position(row);
-  state.velocity.push_back(read_vector(row, *columns_.velocity, "velocity"));
+  state.velocity.push_back(columns_.velocity ? read_vector(row, *columns_.velocity, "velocity")
+                                             : read_vector(row, *columns_.momentum, "momentum"));
   if (columns_.id) {
     const std::int64_t most = std::numeric_limits<std::uint32_t>::max();
     state.id.push_back(static_cast<std::uint32_t>(
@@ -189,25 +191,50 @@ void NeedleReader::read_position(const Row& row) {
   }
 }
 
-void NeedleReader::read_rotation(const Row& row) {
-  Vector u = read_vector(row, *columns_.orientation, "orientation");
-  Vector w = read_vector(row, *columns_.angular_velocity, "angular velocity");
-  double deviation = 0;
-  if (const double off = std::abs(length_of(u) - 1); !(off <= director_tolerance)) {
+// As a quaternion says it, or a vector, of length 1 but for a rounding.
+NeedleReader::Vector NeedleReader::read_director(const Row& row, double& deviation) {
+  if (columns_.orientation) {
+    const Vector u = read_vector(row, *columns_.orientation, "orientation");
+    const double off = std::abs(length_of(u) - 1);
+    if (off <= director_tolerance) return u;
     if (!(off <= largest_rounding)) {
       row.reject(
           fmt::format("orientation = ({}, {}, {}), of length {}: expected a unit vector, "
                       "within {}",
                       u[0], u[1], u[2], length_of(u), largest_rounding));
     }
-    u = normalised(u);
     deviation = off;
+    return normalised(u);
   }
+  std::array<double, 4> q{};
+  for (std::size_t n = 0; n < 4; ++n)
+    q[n] = row.read((*columns_.quaternion)[n], fmt::format("quaternion {}", "wxyz"[n]));
+  const double size = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
+  const double off = std::abs(size - 1);
+  if (!(off <= largest_rounding)) {
+    row.reject(
+        fmt::format("quaternion = ({}, {}, {}, {}), of length {}: expected a unit "
+                    "quaternion, within {}",
+                    q[0], q[1], q[2], q[3], size, largest_rounding));
+  }
+  if (off > director_tolerance) deviation = off;
+  const auto [w, x, y, z] = q;
+  return normalised({2 * (x * z + w * y), 2 * (y * z - w * x), w * w - x * x - y * y + z * z});
+}
+
+void NeedleReader::read_rotation(const Row& row) {
+  double deviation = 0;
+  const Vector u = read_director(row, deviation);
+  const VectorColumns& columns =
+      columns_.angular_velocity ? *columns_.angular_velocity : *columns_.angular_momentum;
+  Vector w = read_vector(row, columns, "angular velocity");
   if (const double part = std::abs(part_along(w, u)); !(part <= director_tolerance)) {
     const double along = part * length_of(w);
     if (part <= largest_rounding) {
       deviation = std::max(deviation, part);
-    } else if (along <= rounding_along(row, *columns_.angular_velocity, u)) {
+    } else if (!columns_.orientation) {
+      ++spinning_;
+    } else if (along <= rounding_along(row, columns, u)) {
       slow_.push_back({{row.path, row.number, {}}, along});
     } else {
       row.reject(
@@ -225,6 +252,12 @@ void NeedleReader::read_rotation(const Row& row) {
 void NeedleReader::finish(const std::string& path) {
   require_distinct_ids(path);
   leave_out_unknown_species();
+  divide_momenta(path);
+  if (spinning_ > 0) {
+    configuration_.notes.push_back(fmt::format(
+        "{} of {} bodies turn about their own axes, too: that is left out, as it changes nothing",
+        spinning_, configuration_.state.size()));
+  }
   if (slow_.empty()) return;
   const auto& all = configuration_.state.angular_velocity;
   double size = 0;  // of the vector of all components, without overflow
@@ -239,6 +272,36 @@ void NeedleReader::finish(const std::string& path) {
           each.along, deviation, largest_rounding));
     }
     configuration_.roundings.add(deviation);
+  }
+}
+
+void NeedleReader::divide_momenta(const std::string& path) {
+  const bool by_mass = !columns_.velocity, by_inertia = !columns_.angular_velocity;
+  State& state = configuration_.state;
+  if ((!by_mass && !by_inertia) || state.size() == 0) return;
+  const Material& material = configuration_.material;
+  if (by_mass && material.mass.empty()) {
+    throw InputError(fmt::format(
+        "{}: momenta without masses: expected a column of masses, or velocities", path));
+  }
+  if (by_inertia && (material.length.empty() || material.mass.empty() || material.k.empty())) {
+    configuration_.notes.push_back(
+        "angular velocities are angular momenta over the moments of inertia of the needles "
+        "assumed");
+  }
+  const Composition composition = composition_of(material, path);
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const std::size_t index = species_at(state, i);
+    if (index >= composition.size()) {
+      throw InputError(fmt::format("{}: a needle of species {}: expected an index below {}", path,
+                                   index, composition.size()));
+    }
+    const Species& body = composition[index];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (by_mass) state.velocity[i][axis] /= body.mass;
+      if (by_inertia && body.turns()) state.angular_velocity[i][axis] /= body.inertia();
+      if (by_inertia && !body.turns()) state.angular_velocity[i][axis] = 0;
+    }
   }
 }
 

@@ -16,10 +16,17 @@ namespace needlework::io {
 /// The columns of x, y and z of a vector.
 using VectorColumns = std::array<std::size_t, 3>;
 
+/// The columns of the components w, x, y and z of a quaternion, of which w is the scalar.
+using QuaternionColumns = std::array<std::size_t, 4>;
+
 /// Where the properties of a needle are in a line.
 struct Columns {
   std::size_t count = 0;  ///< of all columns
   std::optional<VectorColumns> position, velocity, orientation, angular_velocity, image;
+  /// In place of a velocity, a director and an angular velocity, where those are absent. The
+  /// quaternion turns (0, 0, 1) into the director.
+  std::optional<VectorColumns> momentum, angular_momentum;
+  std::optional<QuaternionColumns> quaternion;
   std::optional<std::size_t> id;
   std::int64_t first_id = 0;  ///< the id in the file of the needle whose id is 0
   std::optional<std::size_t> length, mass, k, diameter;
@@ -56,9 +63,11 @@ class NeedleReader {
   /// Appends the needle in a row. Throws InputError if a number cannot be used, if its length or
   /// mass is not that of the needles before, and if the director is not a unit vector or the
   /// angular velocity is not normal to it, by more than a rounding of the numbers in the row
-  /// explains: see largest_rounding. What is within that is projected.
+  /// explains: see largest_rounding. What is within that is projected. Of bodies with quaternions,
+  /// which may turn about their own axes, that part is left out, with a note.
   void read(const Row& row);
 
+  /// Divides momenta by masses, which must be known, and angular momenta by moments of inertia.
   /// Throws InputError if an id occurs twice, and if what was projected away from an angular
   /// velocity is not small in comparison with those of all needles.
   void finish(const std::string& path);
@@ -71,6 +80,8 @@ class NeedleReader {
   };
 
   void take_edges(const Row& row);
+  Vector read_director(const Row& row, double& deviation);
+  void divide_momenta(const std::string& path);
   void read_position(const Row& row);
   void read_rotation(const Row& row);
   void require_distinct_ids(const std::string& path) const;
@@ -78,6 +89,8 @@ class NeedleReader {
 
   Columns columns_;
   Configuration& configuration_;
+  // Bodies that a quaternion turns, and that turn about their own axes as well.
+  std::size_t spinning_ = 0;
   // Of which the rounding of a number with so many decimals is a large part.
   std::vector<SlowRotation> slow_;
 };

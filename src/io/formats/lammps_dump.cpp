@@ -22,8 +22,43 @@ constexpr std::string_view begin_of_frame = "ITEM: TIMESTEP";
 constexpr std::string_view begin_of_box = "ITEM: BOX BOUNDS";
 constexpr std::string_view begin_of_atoms = "ITEM: ATOMS";
 
-constexpr ColumnNames dump_names{"x y z, xs ys zs, xu yu zu or xsu ysu zsu", "vx vy vz",
-                                 "mux muy muz", "omegax omegay omegaz"};
+// Units are said once, times of frames before their time steps.
+bool begins_next_frame(std::string_view line) {
+  return line.starts_with(begin_of_frame) || line.starts_with("ITEM: TIME") ||
+         line.starts_with("ITEM: UNITS");
+}
+
+constexpr ColumnNames dump_names{
+    "x y z, xs ys zs, xu yu zu or xsu ysu zsu", "vx vy vz",
+    "mux muy muz or, of a quaternion, quatw quati quatj quatk or c_q[1] to c_q[4]",
+    "omegax omegay omegaz or angmomx angmomy angmomz"};
+
+// The four numbers that a compute, a fix or a variable gives of each atom, such as c_q[1] to
+// c_q[4]; nothing where there are not four of them.
+std::optional<QuaternionColumns> find_four_numbers(const Lines& lines) {
+  const auto& words = lines.fields();
+  const auto find = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::ranges::find(words, name) - words.begin());
+  };
+  std::optional<QuaternionColumns> found;
+  for (std::size_t n = 2; n < words.size(); ++n) {
+    if (!words[n].starts_with("c_") && !words[n].starts_with("f_") && !words[n].starts_with("v_"))
+      continue;
+    if (!words[n].ends_with("[1]")) continue;
+    const std::string name(words[n].substr(0, words[n].size() - 3));
+    const auto at = [&](int i) { return find(fmt::format("{}[{}]", name, i)); };
+    if (at(4) == words.size() || at(5) != words.size()) continue;
+    if (at(2) == words.size() || at(3) == words.size()) continue;
+    if (found) {
+      lines.reject(
+          fmt::format("several columns of four numbers, {}[1] among them: expected those "
+                      "of one quaternion, or quatw quati quatj quatk",
+                      name));
+    }
+    found = {n - 2, at(2) - 2, at(3) - 2, at(4) - 2};
+  }
+  return found;
+}
 
 // Periodic, or with a fixed end (f) or two. A boundary that follows the atoms (s) is an open side
 // opposite to a wall; one that is not closer than some bound (m) is none of needles.
@@ -151,7 +186,14 @@ Columns read_columns(const Lines& lines) {
   columns.image = find_vector("ix", "iy", "iz");
   columns.velocity = find_vector("vx", "vy", "vz");
   columns.orientation = find_vector("mux", "muy", "muz");
+  if (const auto w = find("quatw"), i = find("quati"), j = find("quatj"), k = find("quatk");
+      w && i && j && k) {
+    columns.quaternion = {*w, *i, *j, *k};
+  } else if (!columns.orientation) {
+    columns.quaternion = find_four_numbers(lines);
+  }
   columns.angular_velocity = find_vector("omegax", "omegay", "omegaz");
+  columns.angular_momentum = find_vector("angmomx", "angmomy", "angmomz");
   columns.length = find("length");
   (columns.length ? columns.diameter : columns.length) = find("diameter");
   columns.mass = find("mass");
@@ -164,16 +206,20 @@ Columns read_columns(const Lines& lines) {
   return columns;
 }
 
-PartOfFile find_last_dump_frame(InputText& file, const std::string& path) {
+// The last one if none is asked for.
+PartOfFile find_dump_frame(InputText& file, const std::string& path,
+                           std::optional<std::size_t> wanted) {
   Lines lines(file, path);
   PartOfFile last;
-  bool found = false;
+  std::size_t frames = 0;
   while (lines.pass_if_any()) {
     if (!lines.line().starts_with(begin_of_frame)) continue;
+    if (wanted && frames > *wanted) break;
     last.begin = lines.place();
-    found = true;
+    last.number = frames++;
   }
-  if (!found) last.begin = lines.next_place();
+  if (wanted && frames <= *wanted) refuse_frame(path, *wanted, frames);
+  if (frames == 0) last.begin = lines.next_place();
   last.end = lines.next_place().offset;
   return last;
 }
@@ -257,10 +303,11 @@ bool is_lammps_dump(std::string_view beginning) {
   return lines.advance_to_text() && lines.line().starts_with("ITEM: ");
 }
 
-Configuration read_lammps_dump(const std::string& path) {
+Configuration read_lammps_dump(const std::string& path, std::optional<std::size_t> wanted) {
   InputText file(path);
-  const PartOfFile frame = find_last_dump_frame(file, path);
+  const PartOfFile frame = find_dump_frame(file, path, wanted);
   Lines lines(file, path, frame.begin);
+  lines.set_advice(advice_where_cut_short(frame.number));
   lines.advance(begin_of_frame);
   Configuration configuration;
   std::int64_t count = -1;
@@ -289,12 +336,14 @@ Configuration read_lammps_dump(const std::string& path) {
   Gravity gravity;
   for (std::int64_t i = 0; i < count; ++i) {
     lines.advance(expected);
+    lines.require_whole(columns.count, expected);
     needles.read(lines.row());
     if (!columns.force) continue;
     const double mass = columns.mass ? lines.row().read(*columns.mass, "mass") : 1;
     gravity.add(lines.row(), *columns.force, mass);
   }
   while (lines.advance_if_any()) {
+    if (begins_next_frame(lines.line())) break;
     if (!lines.is_blank()) lines.reject(fmt::format("expected no line after {} atoms", count));
   }
   needles.finish(path);

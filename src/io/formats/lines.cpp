@@ -103,6 +103,7 @@ bool Lines::pass_if_any() {
   }
   if (rest_.empty()) return false;
   line_ = rest_.substr(0, end);
+  has_end_ = end != rest_.npos;
   rest_.remove_prefix(std::min(line_.size() + 1, rest_.size()));
   offset_ = next_;
   next_ += line_.size() + 1;
@@ -139,8 +140,20 @@ void Lines::pass(std::string_view expected) { require(pass_if_any(), expected); 
 
 void Lines::require(bool found, std::string_view expected) const {
   if (found) return;
-  throw InputError(
-      fmt::format("{}: cut short after line {}: expected {}", row_.path, row_.number, expected));
+  throw InputError(fmt::format("{}: cut short {} line {}: expected {}{}", row_.path,
+                               has_end_ ? "after" : "in", row_.number, expected, advice_));
+}
+
+std::string advice_where_cut_short(std::size_t frame) {
+  if (frame == 0) return "";
+  if (frame == 1) return "; the frame before it is whole: --frame 0 reads it";
+  return fmt::format("; the {} frames before it are whole: --frame {} reads the last of them",
+                     frame, frame - 1);
+}
+
+void refuse_frame(std::string_view path, std::size_t frame, std::size_t frames) {
+  throw InputError(fmt::format("{}: frame {}: expected one below {}, as there are so many frames",
+                               path, frame, frames));
 }
 
 }  // namespace needlework::io

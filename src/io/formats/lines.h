@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "src/io/formats/input_text.h"
@@ -45,6 +46,12 @@ class Lines {
 
   /// Goes to the next line. Throws InputError if there is none: "cut short: expected EXPECTED".
   void advance(std::string_view expected);
+  /// What to add to that error.
+  void set_advice(std::string advice) { advice_ = std::move(advice); }
+  /// Throws the same if this is the last line, has no end, and has fewer fields than these.
+  void require_whole(std::size_t fields, std::string_view expected) const {
+    require(has_end_ || row_.fields.size() >= fields, expected);
+  }
   /// The same, but returns false at the end of the text.
   bool advance_if_any();
   /// Goes to the next line that is not blank; false if there is none.
@@ -74,15 +81,23 @@ class Lines {
   Row row_;
   std::size_t offset_ = 0;
   std::size_t next_ = 0;
+  bool has_end_ = true;  ///< whether the line ends with a line feed
+  std::string advice_;
 };
 
 /// Where a frame is in a file.
 struct PartOfFile {
   PlaceInText begin;
-  std::size_t end = 0;  ///< offset
+  std::size_t end = 0;     ///< offset
+  std::size_t number = 0;  ///< of the frame, from 0
 
   std::size_t bytes() const { return end - begin.offset; }
 };
+
+/// Where frames are read: what to do where this one is cut short, see Lines::set_advice().
+std::string advice_where_cut_short(std::size_t frame);
+/// Throws InputError for a frame that a file of so many frames has not.
+[[noreturn]] void refuse_frame(std::string_view path, std::size_t frame, std::size_t frames);
 
 /// The text as messages quote it: the beginning of a long one.
 std::string quotation(std::string_view text);

@@ -9,6 +9,7 @@
 #include "needlework/error.h"
 #include "needlework/parse.h"
 #include "needlework/scene.h"
+#include "src/io/bodies.h"
 #include "src/io/in_child_process.h"
 #include "src/io/source.h"
 
@@ -43,52 +44,22 @@ std::vector<double> read_positive(const Source& source, const std::string& path)
   return values;
 }
 
-// Of each species, where the file has the mass of each needle only.
-std::vector<double> read_masses_of_needles(const Source& source) {
-  const std::string group = find_particles(source);
-  const std::string path = group + "/mass";
-  const std::vector<double> masses = read_positive(source, path);
-  std::vector<double> indices = read_numbers(source, group + "/species");
-  indices.resize(masses.size());
-  std::vector<double> of_species;
-  for (std::size_t i = 0; i < masses.size(); ++i) {
-    if (!(indices[i] >= 0 && indices[i] < most_species)) {
-      throw InputError(fmt::format("{}[{}] = {}: expected an index below {}",
-                                   source.place(group + "/species"), i, indices[i], most_species));
-    }
-    const auto index = static_cast<std::size_t>(indices[i]);
-    if (of_species.size() <= index) of_species.resize(index + 1);
-    if (of_species[index] == 0) of_species[index] = masses[i];
-    if (of_species[index] == masses[i]) continue;
-    throw InputError(
-        fmt::format("{}[{}] = {}: expected {}, as of the needles before: those of a "
-                    "species are equal",
-                    source.place(path), i, masses[i], of_species[index]));
-  }
-  return of_species;
+std::vector<std::string> read_texts(const Source& source, const std::string& path) {
+  const std::string place = source.place(path);
+  if (!hdf5::is_dataset(source.get(), path, place)) return {};
+  return hdf5::read_strings(hdf5::open_dataset(source.get(), path, place).get(), place);
 }
 
 // What /parameters holds in the scene only. A scene that cannot be read, such as that of a later
 // version, says nothing.
-void read_rules(const Source& source, Material& material) {
+void read_surroundings(const Source& source, Material& material) {
   const std::string path = "/parameters/scene";
-  if (!hdf5::is_dataset(source.get(), path, source.place(path))) return;
-  const auto texts = hdf5::read_strings(
-      hdf5::open_dataset(source.get(), path, source.place(path)).get(), source.place(path));
+  const std::vector<std::string> texts = read_texts(source, path);
   if (texts.empty()) return;
   try {
     const Scene scene = parse_recorded_scene(texts.front(), path);
     material.walls = scene.walls;
     material.gravity = scene.forces.gravity;
-    const Composition composition = scene.composition();
-    if (composition.size() != material.species() || material.species() == 1) return;
-    material.epsilon.clear();
-    material.beta.clear();
-    for (const Restitution& rule : composition.rules()) {
-      material.epsilon.push_back(rule.epsilon);
-      material.beta.push_back(rule.beta);
-    }
-    for (const Species& each : composition.species()) material.names.push_back(each.name);
   } catch (const InputError&) {
   }
 }
@@ -119,11 +90,12 @@ static Material read_material_here(const std::string& path) {
                                         : read_positive(source, "/parameters/length");
   // Without needles, the group of them does not hold their mass.
   material.mass = read_positive(source, "/parameters/mass");
-  if (material.mass.empty()) material.mass = read_masses_of_needles(source);
+  if (material.mass.empty()) material.mass = masses_by_species(source);
   material.k = read_positive(source, "/parameters/k");
   material.epsilon = read_numbers(source, "/parameters/epsilon");
   material.beta = read_numbers(source, "/parameters/beta");
-  read_rules(source, material);
+  material.names = read_texts(source, "/parameters/species");
+  read_surroundings(source, material);
   composition_of(material, path);
   return material;
 }

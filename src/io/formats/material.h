@@ -56,10 +56,10 @@ inline std::size_t species_at(const State& state, std::size_t i) {
   return state.species.empty() ? 0 : state.species[i];
 }
 
-/// Reads the material of an H5MD file: the numbers in /parameters that a Writer writes or else, of
-/// the mass, those in the group of the needles; and of its scene walls, gravity, and of a mixture
-/// names and restitution. Throws IoError if the file cannot be read, and InputError if a number
-/// cannot be used or if the needles of a species have several masses.
+/// Reads the material of an H5MD file: what a Writer writes in /parameters or else, of the mass,
+/// what is in the group of the needles; and of its scene walls and gravity. Throws IoError if the
+/// file cannot be read, and InputError if a number cannot be used or if the needles of a species
+/// have several masses.
 Material read_material(const std::string& path);
 
 /// Throws InputError if length, mass, k or epsilon is absent. `path` is the file that was read.

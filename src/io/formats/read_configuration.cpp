@@ -7,20 +7,29 @@
 #include "src/io/formats/dynamo.h"
 #include "src/io/formats/input_text.h"
 #include "src/io/formats/lammps.h"
+#include "src/io/formats/lines.h"
 #include "src/io/formats/xyz.h"
 
 namespace needlework::io {
 namespace {
 
+using FrameNumber = std::optional<std::size_t>;
+
+template <Configuration (*read)(const std::string&)>
+Configuration read_only_frame(const std::string& path, FrameNumber frame) {
+  if (frame.value_or(0) > 0) refuse_frame(path, *frame, 1);
+  return read(path);
+}
+
 struct Format {
   bool (*fits)(std::string_view beginning);
-  Configuration (*read)(const std::string& path);
+  Configuration (*read)(const std::string& path, FrameNumber frame);
 };
 
-constexpr Format formats[] = {{is_dynamo, read_dynamo},
+constexpr Format formats[] = {{is_dynamo, read_only_frame<read_dynamo>},
                               {is_xyz, read_xyz},
                               {is_lammps_dump, read_lammps_dump},
-                              {is_lammps_data, read_lammps_data}};
+                              {is_lammps_data, read_only_frame<read_lammps_data>}};
 
 // Of the text, decompressed if need be.
 std::string beginning_of(const std::string& path) {
@@ -39,10 +48,10 @@ bool is_configuration(std::string_view beginning) {
   return false;
 }
 
-Configuration read_configuration(const std::string& path) {
+Configuration read_configuration(const std::string& path, std::optional<std::size_t> frame) {
   const std::string beginning = beginning_of(path);
   for (const Format& format : formats) {
-    if (format.fits(beginning)) return format.read(path);
+    if (format.fits(beginning)) return format.read(path, frame);
   }
   throw InputError(fmt::format(
       "{}: expected a configuration of DynamO, extended XYZ, or a dump or data file of LAMMPS",

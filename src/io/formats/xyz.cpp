@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include "needlework/error.h"
@@ -18,8 +19,9 @@
 namespace needlework::io {
 namespace {
 
-constexpr ColumnNames xyz_names{"pos:R:3", "velo:R:3 or velocities:R:3",
-                                "director:R:3 or orientation:R:3", "angular_velocity:R:3"};
+constexpr ColumnNames xyz_names{
+    "pos:R:3", "velo:R:3, velocities:R:3, or momenta:R:3 and masses:R:1",
+    "director:R:3, orientation:R:3 or, a quaternion, orientation:R:4", "angular_velocity:R:3"};
 
 std::string_view unquoted(std::string_view text) {
   if (text.size() >= 2 && (text.front() == '"' || text.front() == '\'') &&
@@ -86,12 +88,17 @@ Columns read_properties(std::string_view text, const Lines& lines) {
     const bool is_vector = type == "R" && width == "3";
     if (name == "id" && type == "I" && width == "1") columns.id = first;
     if (name == "needle_species" && type == "I" && width == "1") columns.species = first;
+    if (name == "masses" && type == "R" && width == "1") columns.mass = first;
+    // Its scalar is the last of the four.
+    if (name == "orientation" && type == "R" && width == "4")
+      columns.quaternion = {first + 3, first, first + 1, first + 2};
     if (!is_vector) continue;
     if (name == "pos") columns.position = vector;
     if (name == "velo" || name == "velocities") columns.velocity = vector;
     if (name == "director") columns.orientation = vector;
     if (name == "orientation" && !found.contains("director")) columns.orientation = vector;
     if (name == "angular_velocity") columns.angular_velocity = vector;
+    if (name == "momenta") columns.momentum = vector;
   }
   return columns;
 }
@@ -127,9 +134,12 @@ std::int64_t read_count(const Lines& lines) {
   return lines.row().read_whole(0, "number of needles", 0, most_needles);
 }
 
-PartOfFile find_last_xyz_frame(InputText& file, const std::string& path) {
+// The last one if none is asked for.
+PartOfFile find_xyz_frame(InputText& file, const std::string& path,
+                          std::optional<std::size_t> wanted) {
   Lines lines(file, path);
   PartOfFile last;
+  std::size_t frames = 0;
   bool more = lines.advance_to_text();
   while (more) {
     if (lines.is_blank()) {  // blank lines may end the file
@@ -137,12 +147,16 @@ PartOfFile find_last_xyz_frame(InputText& file, const std::string& path) {
       break;
     }
     last.begin = lines.place();
+    last.number = frames++;
+    lines.set_advice(advice_where_cut_short(last.number));
     const std::int64_t count = read_count(lines);
     const std::string expected = fmt::format("the comment and {} needles", count);
     for (std::int64_t i = 0; i <= count; ++i) lines.pass(expected);
     last.end = lines.next_place().offset;
+    if (wanted == last.number) return last;
     more = lines.advance_if_any();
   }
+  if (wanted) refuse_frame(path, *wanted, frames);
   return last;
 }
 
@@ -197,10 +211,11 @@ bool is_xyz(std::string_view beginning) {
   return std::all_of(count.begin(), count.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-Configuration read_xyz(const std::string& path) {
+Configuration read_xyz(const std::string& path, std::optional<std::size_t> wanted) {
   InputText file(path);
-  const PartOfFile frame = find_last_xyz_frame(file, path);
+  const PartOfFile frame = find_xyz_frame(file, path, wanted);
   Lines lines(file, path, frame.begin);
+  lines.set_advice(advice_where_cut_short(frame.number));
   lines.advance("the number of needles");
   const std::int64_t count = read_count(lines);
   lines.advance("a comment");
@@ -211,6 +226,7 @@ Configuration read_xyz(const std::string& path) {
   const std::string expected = fmt::format("{} needles", count);
   for (std::int64_t i = 0; i < count; ++i) {
     lines.advance(expected);
+    lines.require_whole(columns.count, expected);
     needles.read(lines.row());
   }
   needles.finish(path);

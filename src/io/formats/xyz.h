@@ -2,7 +2,9 @@
 // columns. https://github.com/libAtoms/extxyz describes the format.
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -14,12 +16,13 @@ namespace needlework::io {
 /// Whether a file with this beginning can be in this format.
 bool is_xyz(std::string_view beginning);
 
-/// Reads the last frame, which must have Lattice (rectangular) and the columns pos, velo (or
-/// velocities), director or orientation (a unit vector) and angular_velocity; id is optional.
-/// Length, mass, k, epsilon and beta are taken from the comment line. Numbers are not changed, but
-/// for what is rounded: see NeedleReader. Throws IoError if the file cannot be read, and
-/// InputError, "PATH: line N: reason".
-Configuration read_xyz(const std::string& path);
+/// Reads a frame, counted from 0, or the last one. It must have Lattice (rectangular) and the
+/// columns pos, velo (or velocities, or momenta and masses), director or orientation (a unit
+/// vector, or a quaternion x, y, z, w) and angular_velocity; id and masses are optional. Length,
+/// mass, k, epsilon and beta are taken from the comment line. Numbers are not changed, but for what
+/// is rounded: see NeedleReader. Throws IoError if the file cannot be read, and InputError, "PATH:
+/// line N: reason".
+Configuration read_xyz(const std::string& path, std::optional<std::size_t> wanted = {});
 
 /// Writes frames from which read_xyz() reads the same numbers. The chemical species is X. By the
 /// columns orientation, a quaternion (x, y, z, w), and aspherical_shape, OVITO draws needles.

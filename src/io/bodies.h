@@ -1,0 +1,20 @@
+// What H5MD files say of their bodies.
+#pragma once
+
+#include "needlework/state.h"
+#include "src/io/source.h"
+
+namespace needlework::io {
+
+/// The bodies of a file, as /parameters describes them: length, mass, k, diameter, of each species
+/// in a mixture, and then the names, species. Where that has no mass, it is that of the particles.
+/// What has the attribute `assumed` is left out: the file that
+/// it was imported from does not say it. Throws InputError, "PATH: /DATASET...: expected ...", for
+/// numbers that no body has.
+Bodies read_bodies(const Source& source);
+
+/// The mass of the particles of each species, 0 of a species without any; nothing if the file does
+/// not hold masses. Throws InputError if those of a species differ.
+std::vector<double> masses_by_species(const Source& source);
+
+}  // namespace needlework::io

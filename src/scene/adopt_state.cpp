@@ -1,0 +1,248 @@
+#include "src/scene/adopt_state.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "needlework/error.h"
+#include "src/scene/bodies.h"
+#include "src/scene/check.h"
+#include "src/scene/confinement.h"
+#include "src/scene/printable.h"
+
+namespace needlework {
+namespace {
+
+std::string source_of_state(const Scene& scene) {
+  return scene.initial.file.empty() ? "the state" : printable(scene.initial.file);
+}
+
+bool agrees(double given, double expected) {
+  return std::abs(given - expected) <= 1e-12 * std::abs(expected);
+}
+
+// In the form in which the scene says it.
+std::string key_of_body(const Scene& scene, std::string_view key, std::size_t n) {
+  std::string short_form = fmt::format("needles.{}", key);
+  const bool is_short = scene.species.empty() || scene.places.contains(short_form);
+  return is_short ? short_form : key_of_species(key, n);
+}
+
+// Whether the scene says this of a species. One that is built in code says what is not the default.
+bool is_said(const Scene& scene, std::string_view key, std::size_t n, bool is_default) {
+  if (scene.text.empty()) return !is_default;
+  return scene.places.contains(key_of_body(scene, key, n));
+}
+
+struct Dimension {
+  const char* key;
+  std::vector<double> Bodies::*known;
+  double Species::*value;
+};
+constexpr Dimension dimensions[] = {{"length", &Bodies::length, &Species::length},
+                                    {"diameter", &Bodies::diameter, &Species::diameter},
+                                    {"mass", &Bodies::mass, &Species::mass}};
+
+[[noreturn]] void refuse(const Scene& scene, const std::string& place,
+                         const std::string& expected) {
+  throw InputError(
+      fmt::format("{}: expected {}, as in {}", place, expected, source_of_state(scene)));
+}
+
+void require_agreement(const Scene& scene, const char* key, std::size_t n, double given,
+                       double expected) {
+  if (agrees(given, expected)) return;
+  refuse(scene, place_of(scene, key_of_body(scene, key, n), fmt::to_string(given)),
+         fmt::to_string(expected));
+}
+
+// k of a body whose other dimensions are known.
+double k_of(const Scene& scene, const Species& body, std::size_t n, const Bodies& bodies) {
+  const double by_inertia =
+      body.given_inertia ? body.mass * (body.length * body.length) / (2 * *body.given_inertia) : 0;
+  const bool is_k_said = is_said(scene, "k", n, body.k == Species{}.k);
+  if (!bodies.k.empty()) {
+    const double k = bodies.k[n];
+    if (body.given_inertia && !agrees(by_inertia, k)) {
+      require_agreement(scene, "inertia", n, *body.given_inertia,
+                        body.mass * (body.length * body.length) / (2 * k));
+    } else if (is_k_said && !body.given_inertia) {
+      require_agreement(scene, "k", n, body.k, k);
+    }
+    return k;
+  }
+  if (body.given_inertia) return by_inertia;
+  return is_k_said || body.diameter == 0 ? body.k : homogeneous_k(body.length, body.diameter);
+}
+
+Species completed(const Scene& scene, Species body, std::size_t n, const Bodies& bodies) {
+  if (!bodies.names.empty() && !scene.species.empty() && body.name != bodies.names[n]) {
+    const auto quoted = [](const std::string& name) { return '"' + printable(name) + '"'; };
+    refuse(scene, place_of(scene, key_of_species("name", n), quoted(body.name)),
+           quoted(bodies.names[n]));
+  }
+  for (const auto& [key, known, value] : dimensions) {
+    if ((bodies.*known).empty()) continue;
+    const double expected = (bodies.*known)[n];
+    if (is_said(scene, key, n, body.*value == Species{}.*value))
+      require_agreement(scene, key, n, body.*value, expected);
+    body.*value = expected;
+  }
+  if (body.turns()) body.k = k_of(scene, body, n, bodies);
+  body.given_inertia.reset();
+  return body;
+}
+
+void require_one_number_a_species(const Scene& scene, const Bodies& bodies) {
+  for (const auto& [name, size] : {std::pair("names", bodies.names.size()),
+                                   {"length", bodies.length.size()},
+                                   {"diameter", bodies.diameter.size()},
+                                   {"mass", bodies.mass.size()},
+                                   {"k", bodies.k.size()}}) {
+    if (size == 0 || size == bodies.species()) continue;
+    throw InputError(
+        fmt::format("{}: {} of its bodies: {} of them: expected {}, one for each species",
+                    source_of_state(scene), name, size, bodies.species()));
+  }
+}
+
+void require_as_many_species(const Scene& scene, const Bodies& bodies) {
+  const std::size_t given = scene.species.size(), known = bodies.species();
+  if (given == 0 || known == 0 || given == known) return;
+  std::vector<std::string> names;
+  for (const std::string& name : bodies.names) names.push_back(printable(name));
+  refuse(scene,
+         place_of(scene, key_of_species("name", given - 1),
+                  '"' + printable(scene.species.back().name) + '"'),
+         fmt::format("{} [[species]]{}{}, not {}", known, names.empty() ? "" : ": ",
+                     fmt::join(names, ", "), given));
+}
+
+void adopt_counts_of_species(Scene& scene, const State& state) {
+  if (scene.species.size() == 1) scene.species.front().count = state.size();
+  if (scene.species.size() < 2) return;
+  if (state.species.empty()) {
+    const std::size_t known = state.bodies.species();
+    if (scene.composition().count() == state.size()) return;
+    if (known < 2) return;
+    throw InputError(fmt::format("{}: {} species: expected one that says which needle is of which",
+                                 source_of_state(scene), known));
+  }
+  std::vector<std::uint64_t> counts(scene.species.size());
+  for (const SpeciesIndex index : state.species) {
+    if (index >= counts.size()) {
+      throw InputError(
+          fmt::format("{}: a needle of species {}: expected an index below {}, as there "
+                      "are so many [[species]]",
+                      source_of_state(scene), index, counts.size()));
+    }
+    ++counts[index];
+  }
+  for (std::size_t n = 0; n < counts.size(); ++n) {
+    Species& species = scene.species[n];
+    if (species.count != 0 && species.count != counts[n]) {
+      throw InputError(fmt::format("species.count = {} of {}: expected {}, as in {}", species.count,
+                                   species.name, counts[n], source_of_state(scene)));
+    }
+    species.count = counts[n];
+  }
+}
+
+void adopt_count_and_box(Scene& scene, const State& state) {
+  require_count(scene, state.size());
+  Scene::Needles& needles = scene.needles;
+  const std::string source = source_of_state(scene);
+  const bool given = needles.box != std::array<double, 3>{};
+  const auto text = [](const std::array<double, 3>& box) {
+    return fmt::format("[{}]", fmt::join(box, ", "));
+  };
+  if (given && !std::equal(needles.box.begin(), needles.box.end(), state.box.begin(), agrees)) {
+    refuse(scene, place_of(scene, "needles.box", text(needles.box)), text(state.box));
+  }
+  needles.count = state.size();
+  adopt_counts_of_species(scene, state);
+  needles.box = state.box;
+  scene.places.emplace("needles.count", fmt::format("{}: {} needles", source, needles.count));
+}
+
+}  // namespace
+
+void require_count(const Scene& scene, std::size_t count) {
+  const std::uint64_t given = scene.needles.count;
+  if (given == 0 || given == count) return;
+  refuse(scene, place_of(scene, "needles.count", fmt::to_string(given)), fmt::to_string(count));
+}
+
+void adopt_bodies(Scene& scene, const Bodies& bodies) {
+  require_one_number_a_species(scene, bodies);
+  require_as_many_species(scene, bodies);
+  const bool listed = !scene.species.empty();
+  std::vector<Species> all = scene.species;
+  if (!listed) {
+    Species body;
+    body.k = scene.needles.k;
+    body.diameter = scene.needles.diameter;
+    all.assign(std::max<std::size_t>(1, bodies.species()), body);
+  }
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    all[n] = completed(scene, std::move(all[n]), n, bodies);
+    if (listed) continue;
+    all[n].name = !bodies.names.empty() ? bodies.names[n]
+                  : all.size() == 1     ? "needles"
+                                        : fmt::format("needles {}", n + 1);
+  }
+  // The short form has a length and a mass of 1.
+  if (!listed && all.size() == 1 && all[0].length == 1 && all[0].mass == 1) {
+    scene.needles.k = all[0].k;
+    scene.needles.diameter = all[0].diameter;
+  } else {
+    scene.species = std::move(all);
+  }
+}
+
+void adopt_state(Scene& scene, const State& state) {
+  adopt_bodies(scene, state.bodies);
+  require_pairs_of_species(scene);
+  require_possible_bodies(scene);
+  require_compatible_effects(scene);
+  adopt_count_and_box(scene, state);
+  if (scene.places.contains("needles.box")) require_room_in_box(scene);
+}
+
+Bodies bodies_of(const Composition& composition) {
+  Bodies bodies;
+  for (const Species& each : composition.species()) {
+    if (composition.is_mixture()) bodies.names.push_back(each.name);
+    for (const auto& [key, known, value] : dimensions) (bodies.*known).push_back(each.*value);
+    bodies.k.push_back(each.k);
+  }
+  return bodies;
+}
+
+std::string warning_of_unknown_bodies(const Scene& scene, const Bodies& bodies) {
+  const Composition composition = scene.composition();
+  std::vector<std::string> unknown;
+  const auto add_if = [&](bool is_unknown, const char* key) {
+    if (is_unknown) unknown.emplace_back(key);
+  };
+  for (std::size_t n = 0; n < composition.size() && unknown.empty(); ++n) {
+    const Species& body = composition[n];
+    for (const auto& [key, known, value] : dimensions) {
+      const bool is_default = body.*value == Species{}.*value;
+      add_if((bodies.*known).empty() && !is_said(scene, key, n, is_default), key);
+    }
+    const bool is_k_said = is_said(scene, "k", n, body.k == Species{}.k) ||
+                           is_said(scene, "inertia", n, true) || !body.turns();
+    add_if(bodies.k.empty() && !is_k_said, "k");
+  }
+  if (unknown.empty()) return "";
+  return fmt::format(
+      "{}: says no {} of its bodies, and neither does the scene: the default is taken",
+      place_of(scene, "initial.file", printable(scene.initial.file)), fmt::join(unknown, ", no "));
+}
+
+}  // namespace needlework

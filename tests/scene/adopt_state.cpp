@@ -1,0 +1,136 @@
+// What a scene takes from the state that it starts from.
+#include "src/scene/adopt_state.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "needlework/error.h"
+#include "needlework/parse.h"
+
+namespace needlework {
+namespace {
+
+const Bodies thick_rods{.length = {2}, .diameter = {0.5}, .mass = {4}, .k = {2}};
+const Bodies two_kinds{
+    .names = {"rod", "ball"}, .length = {1, 0}, .diameter = {0.25, 1}, .mass = {1, 3}, .k = {3, 6}};
+
+State state_of(const Bodies& bodies) {
+  State state;
+  state.box = {9, 9, 9};
+  state.resize(3);
+  if (bodies.species() > 1) state.species = {0, 1, 1};
+  state.bodies = bodies;
+  return state;
+}
+
+Scene adopted(const std::string& text, const Bodies& bodies) {
+  Scene scene = parse_scene("initial.file = \"f.h5\"\nuntil.time = 1\n" + text, "s.toml");
+  adopt_state(scene, state_of(bodies));
+  return scene;
+}
+
+std::string refusal_of_state(const std::string& text, const Bodies& bodies) {
+  try {
+    adopted(text, bodies);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(AdoptedState, SaysItsBodiesWhereTheSceneIsSilent) {
+  for (const char* text : {"", "needles.count = 3", "needles.diameter = 0.5\nneedles.k = 2",
+                           "[[species]]\nname = \"any\"\nmass = 4"}) {
+    const Scene scene = adopted(text, thick_rods);
+    const Composition composition = scene.composition();
+    ASSERT_EQ(composition.size(), 1u);
+    EXPECT_EQ(composition[0].length, 2);
+    EXPECT_EQ(composition[0].diameter, 0.5);
+    EXPECT_EQ(composition[0].mass, 4);
+    EXPECT_EQ(composition[0].k, 2);
+    EXPECT_EQ(composition[0].count, 3u);
+    EXPECT_EQ(scene.needles.count, 3u);
+  }
+}
+
+TEST(AdoptedState, KeepsTheShortFormOfNeedlesOfLengthAndMassOne) {
+  const Scene scene = adopted("", {.length = {1}, .diameter = {0.25}, .mass = {1}, .k = {3}});
+  EXPECT_TRUE(scene.species.empty());
+  EXPECT_EQ(scene.needles.diameter, 0.25);
+  EXPECT_EQ(scene.needles.k, 3);
+}
+
+TEST(AdoptedState, SaysNamesAndCountsOfSpecies) {
+  const Scene scene = adopted("[[pairs]]\nbetween = [\"ball\", \"rod\"]\nepsilon = 0.5", two_kinds);
+  ASSERT_EQ(scene.species.size(), 2u);
+  EXPECT_EQ(scene.species[1].name, "ball");
+  EXPECT_EQ(scene.species[1].count, 2u);
+  EXPECT_EQ(scene.species[1].length, 0);
+  EXPECT_EQ(scene.composition().restitution(0, 1).epsilon, 0.5);
+  // Also where the scene begins to say them.
+  const Scene named =
+      adopted("[[species]]\nname = \"rod\"\n[[species]]\nname = \"ball\"\nlength = 0", two_kinds);
+  EXPECT_EQ(named.species[0].diameter, 0.25);
+  EXPECT_EQ(named.species[1].diameter, 1);
+  EXPECT_EQ(named.species[1].mass, 3);
+}
+
+TEST(AdoptedState, IsNotContradicted) {
+  for (const auto& [text, message] :
+       {std::pair("needles.k = 6", "s.toml: line 3: needles.k = 6: expected 2, as in f.h5"),
+        {"needles.diameter = 0.1",
+         "s.toml: line 3: needles.diameter = 0.1: expected 0.5, as in f.h5"},
+        {"[[species]]\nname = \"a\"\nlength = 1",
+         "s.toml: line 5: species.length = 1: expected 2, as in f.h5"},
+        {"[[species]]\nname = \"a\"\nmass = 1",
+         "s.toml: line 5: species.mass = 1: expected 4, as in f.h5"},
+        {"[[species]]\nname = \"a\"\ninertia = 3",
+         "s.toml: line 5: species.inertia = 3: expected 4, as in f.h5"}}) {
+    EXPECT_EQ(refusal_of_state(text, thick_rods), message);
+  }
+  EXPECT_EQ(refusal_of_state("[[species]]\nname = \"a\"\ninertia = 4", thick_rods), "accepted");
+  EXPECT_EQ(
+      refusal_of_state("[[species]]\nname = \"rod\"\n[[species]]\nname = \"sphere\"", two_kinds),
+      "s.toml: line 6: species.name = \"sphere\": expected \"ball\", as in f.h5");
+  EXPECT_EQ(refusal_of_state("[[species]]\nname = \"rod\"", two_kinds),
+            "s.toml: line 4: species.name = \"rod\": expected 2 [[species]]: rod, ball, not 1, as "
+            "in f.h5");
+  EXPECT_EQ(refusal_of_state("[[pairs]]\nbetween = [\"ball\", \"cube\"]", two_kinds),
+            "s.toml: line 4: pairs.between = [\"ball\", \"cube\"]: expected names of two "
+            "[[species]], among rod, ball");
+}
+
+TEST(AdoptedState, IsOfBodiesThatTheSceneCanSimulate) {
+  EXPECT_NE(refusal_of_state("collisions.beta = 0", thick_rods).find("-1 for rods of finite width"),
+            std::string::npos);
+  EXPECT_NE(refusal_of_state("collisions.sliding = true", thick_rods).find("do not slide"),
+            std::string::npos);
+  // The room is that of its bodies, not that of needles of length 1.
+  const Bodies short_needles{.length = {0.1}, .diameter = {0}, .mass = {1}, .k = {6}};
+  Scene scene = parse_scene("initial.file = \"f.h5\"\nuntil.time = 1\nneedles.box = 1", "s.toml");
+  State state = state_of(short_needles);
+  state.box = {1, 1, 1};
+  EXPECT_NO_THROW(adopt_state(scene, state));
+}
+
+TEST(AdoptedState, SaysWhatNobodyKnows) {
+  const auto warning = [](const std::string& text, const Bodies& bodies) {
+    return warning_of_unknown_bodies(adopted(text, bodies), bodies);
+  };
+  EXPECT_EQ(warning("", thick_rods), "");
+  EXPECT_EQ(warning("", two_kinds), "");
+  EXPECT_EQ(
+      warning("", {}),
+      "s.toml: line 1: initial.file = \"f.h5\": says no length, no diameter, no mass, no k of "
+      "its bodies, and neither does the scene: the default is taken");
+  EXPECT_EQ(warning("needles.diameter = 0.1", {.mass = {1}}),
+            "s.toml: line 1: initial.file = \"f.h5\": says no length, no k of its bodies, and "
+            "neither does the scene: the default is taken");
+  EXPECT_EQ(
+      warning("[[species]]\nname = \"a\"\nlength = 1\ndiameter = 0\nmass = 1\ninertia = 1", {}),
+      "");
+}
+
+}  // namespace
+}  // namespace needlework
