@@ -17,6 +17,7 @@
 #include "src/runs/exit_codes.h"
 #include "src/runs/loaded_scene.h"
 #include "src/runs/output_path.h"
+#include "src/scene/adopt_state.h"
 #include "src/scene/printable.h"
 
 namespace needlework::cli {
@@ -223,10 +224,13 @@ io::Configuration read_configuration(const ImportArguments& arguments) {
   }
 }
 
-// Parses the scene, so that a configuration that cannot be run is reported now, not by `run`.
-Scene checked_scene(const std::string& text, const std::string& from) {
+// Completes the scene with its state, so that a configuration that cannot be run is reported now,
+// not by `run`.
+Scene checked_scene(const std::string& text, const State& state, const std::string& from) {
   try {
-    return parse_scene(text, "scene.toml");
+    Scene scene = parse_scene(text, "scene.toml");
+    adopt_state(scene, state);
+    return scene;
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: cannot be run: {}", printable(from), error.what()));
   }
@@ -275,7 +279,7 @@ int run(const ImportArguments& arguments) {
   const std::string state_file = (folder / "state.h5").string();
   const std::string text =
       scene_text(read, arguments.from, fs::absolute(state_file).lexically_normal().string());
-  const Scene scene = checked_scene(text, arguments.from);
+  const Scene scene = checked_scene(text, read.state, arguments.from);
 
   make_folder(arguments.folder);
   for (const std::string& file : {scene_file, state_file}) {

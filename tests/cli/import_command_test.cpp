@@ -105,8 +105,8 @@ TEST_F(ImportCommand, WhatItAssumesMayBeSaidOtherwise) {
       "angular_velocity:R:3 length=1 mass=1 epsilon=1\nX 1 3 3 1 0 0 1 0 0 0 1 0\n";
   write("a.xyz", text);
   ASSERT_TRUE(run("import a.xyz --out a").complains("k is not in the file: 6 is assumed"));
-  EXPECT_EQ(run("check a/scene.toml --set species.k=3").exit_code, 0);
-  const Outcome longer = run("check a/scene.toml --set species.length=2");
+  EXPECT_EQ(run("check a/scene.toml --set until.time=1 --set species.k=3").exit_code, 0);
+  const Outcome longer = run("check a/scene.toml --set until.time=1 --set species.length=2");
   EXPECT_EQ(longer.exit_code, 3);
   EXPECT_TRUE(longer.complains("--set species.length=2: expected 1, as in "));
 }
