@@ -74,6 +74,18 @@ until.time = 0.1
 """
 
 
+# A thermostat is refused beside such gravity.
+CHANNEL = """
+needles = { count = 30, box = 6, seed = 3 }
+until.time = 1
+forces.gravity = [0.1, 0, 0]
+[[walls]]
+axis = "z"
+side = "both"
+temperature = 1
+"""
+
+
 SLIDING = """
 needles = { count = 60, box = 4 }
 collisions = { epsilon = 0.3, sliding = true }
@@ -250,15 +262,21 @@ def main(program, source):
         with open(os.path.join(folder, "sliding.toml"), "w", encoding="utf-8") as file:
             file.write(SLIDING)
         run(["./needlework", "run", "sliding.toml", "--out", "sliding.h5", "--quiet"], folder)
+        with open(os.path.join(folder, "channel.toml"), "w", encoding="utf-8") as file:
+            file.write(CHANNEL)
+        run(["./needlework", "run", "channel.toml", "--out", "channel.h5", "--quiet"], folder)
         runs = rows_of(document, "Files of runs")
+        walls, of_gravity = [], []
+        for row in rows_of(document, "Files with walls"):
+            (of_gravity if row.path.endswith("/gravity") else walls).append(row)
         for name, rows, others in [
                 ("run.h5", runs, ()),
                 ("observed.h5", rows_of(observables, "Datasets"), runs),
                 ("mixture.h5", rows_of(document, "Files of mixtures"), runs),
                 ("rods.h5", rows_of(document, "Files of rods"), runs),
                 ("sliding.h5", rows_of(document, "Files with sliding contact"), runs),
-                ("walled.h5", rows_of(document, "Files with walls") +
-                 rows_of(observables, "Datasets of axes with walls"), runs),
+                ("walled.h5", walls + rows_of(observables, "Datasets of axes with walls"), runs),
+                ("channel.h5", of_gravity, walls + runs),
                 ("sweep/summary.h5", rows_of(document, "Summaries of sweeps"), ()),
                 ("run.vtkhdf", rows_of(document, "Exports for ParaView and VTK"), ())]:
             with h5py.File(os.path.join(folder, name), "r") as file:

@@ -74,7 +74,7 @@ class GsdFiles(unittest.TestCase):
                 self.assertEqual(file[0].log["periodic"].tolist(), [1, 1, last])
 
     def test_bodies_beyond_the_edges(self):
-        scene = support.gas(forces={"gravity": [0, 0, -1]})
+        scene = support.gas(forces={"gravity": [0, 0, -0.05]})
         scene["walls"] = [{"axis": "z", "side": "low"}]
         out = self.path("open.gsd")
         with needlework.Simulation(scene) as sim:

@@ -29,7 +29,7 @@ def checksum(data):
 def mark_of(file):
     """Its first line, which names the version of the program."""
     mark = file[:file.index(b"\n") + 1]
-    assert mark.startswith(b"needlework checkpoint 8 of "), mark
+    assert mark.startswith(b"needlework checkpoint 9 of "), mark
     return mark
 
 
@@ -224,6 +224,8 @@ class Fields:
         self.several("share_of_pairs", "f64", 2)
         self.several("share_of_pairs.quanta", "u64", 2)
         self.several("shares_of_kicks_and_callers", "f64", 4)
+        self.time("temperature.noted_at")
+        self.several("temperature", "f64", 2)
         assert self.at == end
 
     def user_data(self, name):
