@@ -49,7 +49,8 @@ def simulate(config, particles, events, state):
     # Needles have the pressure of an ideal gas.
     volume = math.prod(float(x) for x in re.search(
         r'SimulationSize x="(.*?)" y="(.*?)" z="(.*?)"', Path(config).read_text()).groups())
-    return result["time"], (result.get("rods") or {"pressure": particles / volume})["pressure"]
+    pressure = (result.get("rods") or {}).get("pressure")
+    return result["time"], particles / volume if pressure is None else pressure
 
 
 def write_trajectory():
