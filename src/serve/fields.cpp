@@ -109,8 +109,9 @@ std::optional<Bodies> bodies_in(const Json& request, const char* field) {
                                    : key == "mass"     ? &bodies.mass
                                    : key == "k"        ? &bodies.k
                                                        : nullptr;
+    const bool are_names = key == "name";  // clang 14 captures no structured bindings
     const auto is_good = [&](const Json& each) {
-      return numbers ? each.is_number() : key == "name" && each.is_string();
+      return numbers ? each.is_number() : are_names && each.is_string();
     };
     if (!list.is_array() || !std::ranges::all_of(list, is_good))
       throw wrong(field, *value, expected);
