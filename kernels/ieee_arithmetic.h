@@ -6,5 +6,6 @@
 
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \
     defined(__NO_SIGNED_ZEROS__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "Needlework needs the arithmetic of IEEE 754: build it without -ffast-math, -Ofast and their parts"
+#error \
+    "Needlework needs the arithmetic of IEEE 754: build it without -ffast-math, -Ofast and their parts"
 #endif

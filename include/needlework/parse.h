@@ -27,9 +27,9 @@ struct Provided {
 /// replaces or adds its key before anything is checked; the last override of a key wins. Overrides
 /// do not remove other keys, with exceptions for alternatives in the file: collisions.tc and
 /// collisions.tc_relative replace each other, so do output.series_every and
-/// output.series_per_decade, output.frames_every and output.frames, and initial.file replaces initial.t_tr and initial.t_rot. Overriding a
-/// temperature is an error if the file has initial.file, because it could mean either to draw
-/// velocities or to rescale them.
+/// output.series_per_decade, output.frames_every and output.frames, and initial.file replaces
+/// initial.t_tr and initial.t_rot. Overriding a temperature is an error if the file has
+/// initial.file, because it could mean either to draw velocities or to rescale them.
 ///
 /// Without overrides the scene's text is the text as read. Each override is appended to it as a
 /// comment "# --set section.key=value". needles.count and needles.box may be missing only if

@@ -53,7 +53,8 @@ TEST(ContactsOutput, RowsAndSeriesAreThoseOfTheCounts) {
   EXPECT_EQ(last("share"), 2 * counted.time / (150 * 3.0));
   EXPECT_TRUE(std::isnan(contents.numbers("/series/contacts/share/value").front()));
   // A dataset of that name is not the time of the samples.
-  EXPECT_NE(io::describe(scene.output.file).find("    time/value"), std::string::npos) << io::describe(scene.output.file);
+  EXPECT_NE(io::describe(scene.output.file).find("    time/value"), std::string::npos)
+      << io::describe(scene.output.file);
 }
 
 }  // namespace
