@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <ranges>
 
 #include "needlework/h5md.h"
 #include "src/picture/needle_values.h"
@@ -46,12 +48,41 @@ std::size_t flow_axis_of(const State& state) {
   return static_cast<std::size_t>(std::ranges::max_element(energy) - energy.begin());
 }
 
+// What a picture shows, but at an open side only as far as needles are: a layer at the bottom of a
+// high box would be small.
+picture::Region region_of_layer(const State& state, std::span<const picture::WallSurface> walls) {
+  constexpr double least = 0.125;  // of the shortest edge of the box
+  picture::Region region = picture::region_of(state, walls);
+  const double thinnest = least * std::ranges::min(state.box);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double &low = region.low[axis], &high = region.high[axis];
+    if (picture::is_open(walls, axis, true)) {
+      high = low + thinnest;
+      for (const Vector& centre : state.position) high = std::max(high, centre[axis]);
+    }
+    if (picture::is_open(walls, axis, false)) {
+      low = high - thinnest;
+      for (const Vector& centre : state.position) low = std::min(low, centre[axis]);
+    }
+  }
+  return region;
+}
+
+// Grows the first along the axes of walls, so that it has room for the second.
+void include(picture::Region& region, const picture::Region& other, const State& state) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (state.periodic[axis]) continue;
+    region.low[axis] = std::min(region.low[axis], other.low[axis]);
+    region.high[axis] = std::max(region.high[axis], other.high[axis]);
+  }
+}
+
 Json frame_of(const State& state, std::span<const picture::WallSurface> walls,
-              std::span<const std::size_t> chosen, std::size_t flow_axis, Arrays& arrays) {
+              const picture::Region& drawn, std::span<const std::size_t> chosen,
+              std::size_t flow_axis, Arrays& arrays) {
   std::vector<std::uint16_t> position;
   std::vector<std::int16_t> orientation;
   std::vector<float> speed, spin;
-  const picture::Region drawn = picture::region_of(state, walls);
   for (const std::size_t i : chosen) {
     for (std::size_t a = 0; a < 3; ++a) {
       position.push_back(
@@ -127,15 +158,23 @@ Json frames_of(const std::string& path, const BodySizes& sizes, std::span<const 
               {"frames", Json::array()}};
   add_sizes(out, "length", sizes.lengths, first, chosen, arrays);
   if (!sizes.diameters.empty()) add_sizes(out, "diameter", sizes.diameters, first, chosen, arrays);
-  for (const std::size_t frame : frames) {
+  // From the last to the first, as each shows what those after it need: a film narrows as a layer
+  // settles, and does not follow each needle that flies up.
+  std::optional<picture::Region> later;
+  std::vector<Json> backwards;
+  for (const std::size_t frame : frames | std::views::reverse) {
     Json one = {{"number", frame}, {"time", nullptr}};
     const auto time = file.time(frame);
     if (time) one["time"] = *time;
     const State state = file.read(frame);
-    one.update(
-        frame_of(state, picture::surfaces_of(walls, state.box, time), chosen, flow_axis, arrays));
-    out["frames"].push_back(std::move(one));
+    const auto surfaces = picture::surfaces_of(walls, state.box, time);
+    picture::Region drawn = region_of_layer(state, surfaces);
+    if (later) include(drawn, *later, state);
+    later = drawn;
+    one.update(frame_of(state, surfaces, drawn, chosen, flow_axis, arrays));
+    backwards.push_back(std::move(one));
   }
+  for (Json& frame : backwards | std::views::reverse) out["frames"].push_back(std::move(frame));
   return out;
 }
 

@@ -11,6 +11,7 @@
 
 #include "src/io/formats/material.h"
 #include "src/report/frames.h"
+#include "src/report/lag_means.h"
 #include "src/report/scene_facts.h"
 
 namespace needlework::report {
@@ -53,9 +54,10 @@ class Group {
   Group(const io::Contents& contents, std::string path) : contents_(contents), path_(path) {
     for (const std::string& name : contents.names(path)) {
       const std::string dataset = path + "/" + name;
-      if (name == "step" || name == "time" || !contents.is_dataset(dataset)) continue;
-      if (contents.texts(dataset)) continue;
+      if (!contents.is_dataset(dataset) || contents.texts(dataset)) continue;
       const bool has_rows = contents.has(dataset + "/value");
+      // Steps and times of the samples are no observables, but the element time of contacts is one.
+      if ((name == "step" || name == "time") && !has_rows) continue;
       datasets_.push_back({name, dataset, contents.shape(dataset), has_rows});
       if (has_rows && !timed_) timed_ = dataset;
     }
@@ -65,8 +67,16 @@ class Group {
 
   Json read(const Limits& limits, Arrays& arrays, const Part& part = {}) const {
     Json out = {{"description", contents_.description(path_)}};
-    const std::size_t rows = timed_ ? contents_.shape(*timed_).at(0) : 0;
-    const auto chosen = evenly(rows, std::min(limits.samples, affordable_rows(limits)));
+    std::size_t rows = timed_ ? contents_.shape(*timed_).at(0) : 0;
+    auto chosen = evenly(rows, std::min(limits.samples, affordable_rows(limits)));
+    // Rows left out would be missing in the mean.
+    std::optional<LagMeans> means;
+    if (rows > 0 && path_ == "/series/time_correlation") {
+      means.emplace(contents_, path_);
+      out["mean_of_rows"] = means->rows();
+      chosen = {rows - 1};
+      rows = 1;
+    }
     out["rows_in_file"] = rows;
     out["rows"] = chosen.size();
     if (timed_ && contents_.is_dataset(*timed_ + "/time")) {
@@ -75,7 +85,11 @@ class Group {
     }
     out["datasets"] = Json::object();
     for (const Dataset& dataset : datasets_) {
-      out["datasets"][dataset.name] = read(dataset, chosen, arrays, part);
+      std::vector<double> values = !dataset.has_rows ? contents_.numbers(dataset.path)
+                                   : means           ? means->of(dataset.path)
+                                                     : contents_.rows(dataset.path, chosen);
+      out["datasets"][dataset.name] =
+          described(dataset, std::move(values), chosen.size(), arrays, part);
     }
     return out;
   }
@@ -101,17 +115,16 @@ class Group {
     return limits.group_bytes / std::max<std::size_t>(bytes, 1);
   }
 
-  Json read(const Dataset& dataset, std::span<const std::size_t> chosen, Arrays& arrays,
-            const Part& part) const {
-    std::vector<double> values =
-        dataset.has_rows ? contents_.rows(dataset.path, chosen) : contents_.numbers(dataset.path);
+  // The part of these values of a dataset that is of one species, or of all.
+  Json described(const Dataset& dataset, std::vector<double> values, std::size_t rows,
+                 Arrays& arrays, const Part& part) const {
     std::vector<std::size_t> shape = dataset.shape;
-    if (dataset.has_rows) shape[0] = chosen.size();
+    if (dataset.has_rows) shape[0] = rows;
     if (dataset.has_rows && part.of > 1 && shape.size() > 1 && shape[1] == part.of) {
       shape.erase(shape.begin() + 1);
       const std::size_t width = dataset.row_size() / part.of;
       std::vector<double> of_part;
-      for (std::size_t row = 0; row < chosen.size(); ++row) {
+      for (std::size_t row = 0; row < rows; ++row) {
         const auto begin =
             values.begin() + static_cast<std::ptrdiff_t>((row * part.of + part.index) * width);
         of_part.insert(of_part.end(), begin, begin + static_cast<std::ptrdiff_t>(width));

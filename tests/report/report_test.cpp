@@ -208,7 +208,8 @@ TEST_F(Report, ShowsWallsWhereTheyAreAndNeedlesBeyondOpenSides) {
   EXPECT_EQ(frames["frames"][0]["walls"], json({0.0, 0.0, 4.0}));
   EXPECT_EQ(frames["frames"][0]["low"], json({-1.0, 0.0, 0.0}));
   EXPECT_NEAR(frames["frames"][1]["walls"][0].get<double>(), 0.25, 1e-12);
-  EXPECT_EQ(frames["frames"][1]["high"], json({4.0, 5.0, 6.0}));
+  // The side at z high is open: the picture ends with the highest centre.
+  EXPECT_EQ(frames["frames"][1]["high"], json({4.0, 5.0, 4.0}));
   // Along walled axes nothing is wrapped.
   EXPECT_EQ(page.numbers<std::uint16_t>(frames["frames"][1]["position"])[0], 0);
   const json& scene = page.json["sections"][0]["scene"];
@@ -220,6 +221,97 @@ TEST_F(Report, ShowsWallsWhereTheyAreAndNeedlesBeyondOpenSides) {
   EXPECT_EQ(scene["driving"], json::parse(R"({"andersen": null,
       "kicks": {"every": 0.5, "translational": 2.0, "rotational": 0.0}})"));
   EXPECT_EQ(scene["ratio_of_theory"], nullptr);
+}
+
+// A layer that rises and falls: each frame has room for those after it, and for no more.
+TEST_F(Report, FitsALayerUnderAnOpenSide) {
+  const std::string floor =
+      "forces.gravity = [0, 0, -1]\n[[walls]]\naxis = \"z\"\nside = \"low\"\n";
+  const Scene scene = parse_scene(
+      "needles = { count = 1, box = [4, 5, 6] }\nuntil.time = 1\n" + floor, "scene", {});
+  io::Writer writer(path("run.h5"), true, scene, {"scalar", 1, 1.0});
+  const std::vector<double> heights{5, 2, 8, 3, 0};
+  for (int n = 0; n < 5; ++n) {
+    State only = state(1, 0);
+    only.periodic[2] = false;
+    only.position[0] = {1, 1, heights[n]};
+    writer.write_frame(totals(n), only);
+  }
+  writer.close();
+  const test::PageData page = page_of({"run.h5"});
+  const json& frames = page.json["sections"][0]["frames"]["frames"];
+  ASSERT_EQ(frames.size(), 5);
+  const std::vector<double> highs{8, 8, 8, 3, 0.5};  // an eighth of the shortest edge at least
+  for (std::size_t n = 0; n < 5; ++n) {
+    EXPECT_EQ(frames[n]["number"], n);
+    EXPECT_EQ(frames[n]["low"], json({0.0, 0.0, 0.0}));
+    EXPECT_EQ(frames[n]["high"], json({4.0, 5.0, highs[n]})) << n;
+    const auto place = page.numbers<std::uint16_t>(frames[n]["position"])[2];
+    EXPECT_NEAR(place * highs[n] / 65536, heights[n], highs[n] / 65536) << n;
+  }
+}
+
+// The samples of a caller between the others, and the last one, are not of the lags of the others.
+TEST_F(Report, AveragesCorrelationsInTimeOverSamplesAtEqualLags) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Scene scene =
+      parse_scene("needles = { count = 3, box = [4, 5, 6] }\nuntil.time = 1\n", "scene", {});
+  const auto write_rows = [&](const std::vector<std::pair<double, std::vector<double>>>& rows) {
+    io::RunInfo info{"scalar", 2, 1.0};
+    info.series = {{"time_correlation",
+                    "Correlation",
+                    {{"samples", "Lags", "", {{"lags", 2}}, SeriesField::Kind::constant, {0, 1}},
+                     {"lag", "Time", "", {{"lags", 2}}},
+                     {"p1", "Cosine", "", {{"lags", 2}}}}}};
+    io::Writer writer(path("run.h5"), true, scene, info);
+    for (const auto& [time, row] : rows) {
+      Totals sums = totals(0);
+      sums.time = time;
+      writer.write_series(sums, row);
+    }
+    writer.write_frame(totals(0), state(3, 0));
+    writer.close();
+    const test::PageData page = page_of({"run.h5"});
+    json group = page.json["sections"][0]["groups"]["time_correlation"];
+    group["p1"] = page.numbers<double>(group["datasets"]["p1"]);
+    group["lag"] = page.numbers<double>(group["datasets"]["lag"]);
+    return group;
+  };
+  json group = write_rows({{0, {0, nan, 1, nan}},
+                           {0.1, {0, 0.1, 2, 5}},
+                           {0.2, {0, 0.1, 3, 6}},
+                           {0.3, {0, 0.1, 4, 10}},
+                           {0.35, {0, 0.05, 5, 100}}});
+  EXPECT_EQ(group["rows"], 1);
+  EXPECT_EQ(group["rows_in_file"], 1);
+  EXPECT_EQ(group["mean_of_rows"], 5);
+  EXPECT_EQ(group["datasets"]["p1"]["shape"], json({1, 2}));
+  EXPECT_EQ(group["p1"], json({3.0, 7.0}));
+  EXPECT_NEAR(group["lag"][1].get<double>(), 0.1, 1e-12);
+  // Of a gas that cools over decades the last row is shown.
+  std::filesystem::remove(path("run.h5"));
+  group = write_rows(
+      {{0, {0, nan, 1, nan}}, {1, {0, 1, 2, 3}}, {10, {0, 9, 4, 5}}, {100, {0, 90, 6, 7}}});
+  EXPECT_EQ(group["mean_of_rows"], 0);
+  EXPECT_EQ(group["p1"], json({6.0, 7.0}));
+  EXPECT_EQ(group["lag"], json({0.0, 90.0}));
+}
+
+// Though it is called as the times of samples are.
+TEST_F(Report, HoldsAnObservableThatIsATime) {
+  const Scene scene =
+      parse_scene("needles = { count = 3, box = [4, 5, 6] }\nuntil.time = 1\n", "scene", {});
+  io::RunInfo info{"scalar", 2, 1.0};
+  info.series = {{"contacts", "Contacts", {{"time", "Time in contact", "", {}}}}};
+  io::Writer writer(path("run.h5"), true, scene, info);
+  for (int n = 0; n < samples; ++n) writer.write_series(totals(n), std::vector{3.0 * n});
+  writer.write_frame(totals(0), state(3, 0));
+  writer.close();
+  const test::PageData page = page_of({"run.h5"});
+  const json& group = page.json["sections"][0]["groups"]["contacts"];
+  EXPECT_EQ(page.numbers<double>(group["datasets"]["time"])[2], 6);
+  EXPECT_EQ(page.numbers<double>(group["time"])[2], totals(2).time);
+  EXPECT_EQ(page.json["sections"][0]["groups"]["totals"]["datasets"].count("time"), 0);
 }
 
 TEST_F(Report, ThinsFramesNeedlesAndSamplesAndSaysSo) {

@@ -5,7 +5,7 @@ import { cleanUp, launch, needlework, open, write } from "./browser.js";
 
 const observables = [
   "fields", "profiles", "flow_order", "distributions", "alignment", "velocity_moments",
-  "temperature_by_axis", "pair_correlation", "structure_factor", "displacement", "collision_statistics",
+  "temperature_by_axis", "pair_correlation", "structure_factor", "displacement", "time_correlation", "collision_statistics",
 ];
 let browser;
 let samples;
@@ -58,6 +58,18 @@ out = "shaken"
 `);
   needlework("sweep", "shaken_grid.toml", "--quiet");
   needlework("report", "shaken/summary.h5", "-o", "shaken_sweep.html");
+  write("layer.toml", `needles = { count = 60, box = [5, 5, 30] }
+forces.gravity = [0, 0, -1]
+collisions = { epsilon = 0.9, tc_relative = 1e-3 }
+until.time = 40
+output = { file = "layer.h5", series_every = 1, frames = [0.0, 20.0, 40.0], observables = ["wall_profiles"] }
+[[walls]]
+axis = "z"
+side = "low"
+temperature = 0.5
+`);
+  needlework("run", "layer.toml", "--quiet");
+  needlework("report", "layer.h5", "-o", "layer.html");
   write("between.toml", `needles = { count = 60, box = [5, 5, 3] }
 until.time = 2
 output.file = "between.h5"
@@ -90,7 +102,7 @@ diameter = ${diameter}
   write("sliding.toml", `needles = { count = 80, box = 4 }
 collisions = { epsilon = 0.3, sliding = true }
 until.time = 1
-output.file = "sliding.h5"
+output = { file = "sliding.h5", series_every = 0.125, observables = ["time_correlation"] }
 `);
   needlework("run", "sliding.toml", "--quiet");
   needlework("report", "sliding.h5", "-o", "sliding.html");
@@ -165,6 +177,81 @@ test("each observable of the file has its charts", async () => {
     assert.equal(await chart(page, title).count(), 1, title);
     assert.ok((await chart(page, title).locator("svg path, svg circle, svg image").count()) > 0, title);
   }
+  await close();
+});
+
+test("no observable of the file is without a chart", async () => {
+  for (const name of ["gas", "shaken", "sliding", "rod"]) {
+    const { page, complaints, close } = await open(browser, `${name}.html`);
+    const groups = await page.evaluate(() => Object.keys(JSON.parse(document.getElementById("data").textContent).sections[0].groups));
+    const charted = await page.evaluate(() => [...document.querySelectorAll("figure[data-group]")].map((f) => f.dataset.group));
+    assert.deepEqual(groups.filter((group) => !charted.includes(group)), [], name);
+    assert.deepEqual(complaints, []);
+    await close();
+  }
+});
+
+// What the table behind a chart says: rows of numbers.
+async function tableOf(figure) {
+  await figure.getByText("Table").click();
+  await figure.locator("tbody tr").first().waitFor();
+  return figure.locator("tbody tr").evaluateAll((rows) => rows.map((row) => [...row.cells].map((cell) => Number(cell.textContent.replace("−", "-")))));
+}
+
+test("rods have their pressure beside that of an ideal gas", async () => {
+  const { page, close } = await open(browser, "rod.html");
+  const last = (await tableOf(chart(page, "Pressure"))).at(-1);
+  // A single rod, of the temperature 1 in a box of 8, has no partner.
+  for (const pressure of last.slice(-2)) assert.ok(Math.abs(512 * pressure - 1) < 1e-5, `${last}`);
+  await close();
+});
+
+test("contacts are shown over time, and correlations in time over the lag", async () => {
+  const { page, close } = await open(browser, "sliding.html");
+  const share = await tableOf(chart(page, "Time in contact"));
+  assert.equal(share.length, 9);
+  // The means over each step add up to that since the start.
+  const sum = share.slice(1).reduce((total, [, step]) => total + step / 8, 0);
+  assert.ok(sum > 0 && Math.abs(sum / share.at(-1)[2] - 1) < 1e-4, `${sum}`); // of six digits
+  assert.match(await chart(page, "Contacts").locator(".legend").textContent(), /entered.*ended by force.*ended at a tip.*ended by strikes/);
+  for (const title of ["Displacement over time", "Correlation of directors", "Correlation of velocities", "Correlation of angular velocities"]) {
+    assert.match(await chart(page, title).locator("figcaption").textContent(), /Mean over the 9 samples/, title);
+  }
+  const directors = await tableOf(chart(page, "Correlation of directors"));
+  const start = directors.findIndex(([lag]) => lag === 0);
+  assert.deepEqual(directors[start].slice(1).map((value) => Math.round(1e9 * value)), [1e9, 1e9]);
+  assert.deepEqual(directors.slice(0, 9).map(([lag]) => Math.round(1e9 * lag) / 1e9), [0, 1, 2, 3, 4, 5, 6, 7, 8].map((n) => n / 8));
+  await close();
+  const cooling = await open(browser, "gas.html");
+  assert.match(await chart(cooling.page, "Correlation of directors").locator("figcaption").textContent(), /not evenly spaced/);
+  await cooling.close();
+});
+
+test("pictures of a layer under an open side end where it does", async () => {
+  const { page, close } = await open(browser, "layer.html");
+  await drawn(page);
+  const seen = await view(page).evaluate((figure) => {
+    const { scene, frames } = figure.view;
+    return [0, 2].map((n) => {
+      figure.view.showFrame(n);
+      scene.turn(0.2, 0); // a reader turns it
+      return { high: frames.frames[n].high[2], box: scene.box.scale.z, camera: scene.camera.position.toArray() };
+    });
+  });
+  assert.ok(seen[0].high > 25 && seen[1].high < 12, JSON.stringify(seen));
+  assert.ok(Math.abs(seen[1].box - seen[1].high) < 1e-9);
+  const length = seen.map(({ camera }) => Math.hypot(...camera));
+  assert.ok(length[1] < 0.6 * length[0], `${length}`);
+  // Another frame does not turn it back.
+  const azimuth = seen.map(({ camera: [x, y] }) => Math.atan2(y, x));
+  assert.ok(Math.abs(azimuth[1] - azimuth[0] - 0.2) < 1e-6, `${azimuth}`);
+  const density = chart(page, "Between walls: density");
+  const ticks = () => density.locator("svg [aria-label='x-axis tick label'] text").allTextContents();
+  assert.ok(Math.max(...(await ticks()).map(Number)) <= 12, `${await ticks()}`);
+  // At the start needles fill the box.
+  await page.getByLabel("Time of the charts below").fill("0");
+  assert.ok(Math.max(...(await ticks()).map(Number)) >= 20, `${await ticks()}`);
+  assert.match(await density.locator("figcaption").textContent(), /the axis ends with the needles/);
   await close();
 });
 

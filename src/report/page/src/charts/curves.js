@@ -7,19 +7,20 @@ import { figureOf } from "./figure.js";
 import { makeReader } from "./reader.js";
 
 /**
- * `chart`: title, caption, x and y {label, log}, and curves {name, x, y, colour}: numbers of equal
- * lengths. Also of a curve: `low` and `high`, its errors; `dashed` or `faint`; `points`: true, or
+ * `chart`: title, caption, the group that it is about, x and y {label, log}, and curves {name, x, y,
+ * colour}: numbers of equal lengths. Also of a curve: `low` and `high`, its errors; `dashed` or `faint`; `points`: true, or
  * "alone" without a line; `borders`: those of the bins whose middles are x; `beside`: a logarithmic
  * axis does not have to show all of it. With `robust`, the y axis leaves out rare values that are far
- * from all others. Returns a figure with `update(curves)`.
+ * from all others; `range` is where x begins and ends, if not where the curves do. Returns a figure with
+ * `update(curves, range)`.
  */
 export function curvesChart(chart) {
-  let curves = chart.curves;
+  let { curves, range } = chart;
   const logs = { x: chart.x.log ?? false, y: chart.y.log ?? false };
   const area = element("div", { class: "plot" });
   const reader = makeReader(area, chart);
   const redraw = onWidth(area, (width) => {
-    const plot = draw(chart, curves, logs, width);
+    const plot = draw(chart, curves, range, logs, width);
     reader.attach(plot, curves);
   });
   const tools = ["x", "y"]
@@ -37,17 +38,19 @@ export function curvesChart(chart) {
     body: element("div", {}, area, reader.legend),
     columns: () => columnsOf(chart, curves),
   });
+  if (chart.group) figure.dataset.group = chart.group;
   figure.dataset.points = curves.map((curve) => curve.x.length).join(" ");
-  figure.update = (changed) => {
+  figure.update = (changed, changedRange) => {
     curves = changed;
+    range = changedRange;
     redraw();
     figure.refreshTable();
   };
   return figure;
 }
 
-function draw(chart, curves, logs, width) {
-  const domains = { x: domainOf(curves, "x", logs.x), y: domainOf(curves, "y", logs.y, chart.robust) };
+function draw(chart, curves, range, logs, width) {
+  const domains = { x: (!logs.x && range) || domainOf(curves, "x", logs.x), y: domainOf(curves, "y", logs.y, chart.robust) };
   const axis = (name) => {
     const log = logs[name];
     return {

@@ -140,6 +140,7 @@ export class NeedleScene {
     this.needles.frustumCulled = false;
     this.box = new three.LineSegments(edgesWithout(openSides(frames)), new three.LineBasicMaterial());
     this.walls = frames.walls.map((wall) => new Wall(wall));
+    this.lookAtBox();
     this.scene.add(this.needles, this.box, ...this.walls.flatMap(({ parts }) => parts));
   }
 
@@ -155,7 +156,7 @@ export class NeedleScene {
     this.setCount(position.length / 3);
     this.setAttribute("centre", position, 3, true);
     this.setAttribute("orientation", orientation, 3, true);
-    if (!sameBox) this.lookAtBox();
+    if (!sameBox) this.keepInView();
   }
 
   // Frames of one file have the same number of needles, so that this is done once.
@@ -215,10 +216,17 @@ export class NeedleScene {
 
   /** Puts the camera where the whole box is seen. */
   lookAtBox() {
+    this.camera.position.set(0.62, -0.68, 0.4);
+    this.distance = this.camera.position.length();
+    this.keepInView();
+  }
+
+  // In the direction in which the reader looks, and as near, in units of the box.
+  keepInView() {
+    const before = this.distance;
     const size = this.box.scale.length();
     this.distance = (0.54 * size) / Math.tan((this.camera.fov * Math.PI) / 360) / Math.min(1, this.camera.aspect);
-    const direction = new three.Vector3(0.62, -0.68, 0.4).normalize();
-    this.camera.position.copy(direction.multiplyScalar(this.distance));
+    this.camera.position.multiplyScalar(this.distance / before);
     this.camera.near = 0.01 * this.distance;
     this.camera.far = 4 * this.distance;
     this.controls.minDistance = 0.1 * this.distance;
@@ -252,7 +260,7 @@ export class NeedleScene {
     const before = this.camera.aspect;
     this.camera.aspect = aspect;
     this.camera.updateProjectionMatrix();
-    if (Math.min(1, before) !== Math.min(1, aspect)) this.lookAtBox();
+    if (Math.min(1, before) !== Math.min(1, aspect)) this.keepInView();
   }
 
   draw() {

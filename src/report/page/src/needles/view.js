@@ -286,7 +286,7 @@ function captionOf(frames) {
   const text = `Drawn in the box, which is ${boundaryText(frames)}, at the places of their centres.`;
   const across = periodic.includes(true) ? " Needles that cross a periodic side stand out of it." : "";
   const where = walls.length ? " Walls are where they are at the time of the frame." : "";
-  const above = openSides(frames).length ? " The edges reach to the needle that is farthest beyond an open side." : "";
+  const above = openSides(frames).length ? " At an open side the edges reach to the farthest needle of this frame and those after it." : "";
   return text + across + where + above;
 }
 

@@ -37,15 +37,17 @@ function withHeading(title, charts) {
 
 // Histograms, profiles and fields, which one slider moves through time together.
 function atOneTime(run) {
-  const charts = snapshotsOf(run).map(({ group, chart, curvesAt }) => {
-    const figure = curvesChart({ ...chart, notes: notesOf(group), curves: curvesAt(group.rows - 1) });
-    return { figure, group, show: (row) => figure.update(curvesAt(row)) };
+  const charts = snapshotsOf(run).map(({ group, chart, curvesAt, rangeAt }) => {
+    const last = group.rows - 1;
+    const figure = curvesChart({ ...chart, notes: notesOf(group), curves: curvesAt(last), range: rangeAt(last) });
+    return { figure, group, show: (row) => figure.update(curvesAt(row), rangeAt(row)) };
   });
   for (const { groups, name } of [{ groups: run.groups }, ...(run.parts ?? [])]) {
     const { fields } = groups;
     if (!fields) continue;
     const notes = name ? [`Of ${name}.`, ...notesOf(fields)] : notesOf(fields);
     const figure = fieldMap(fields, run.frames.box, notes);
+    figure.dataset.group = "fields";
     charts.push({ figure, group: fields, show: figure.show });
   }
   if (!charts.length) return [];

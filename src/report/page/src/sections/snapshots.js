@@ -1,4 +1,5 @@
 // Charts of a run at one time, as a table: histograms, profiles and correlations.
+import { openSides } from "../boundaries.js";
 import { numbers, rowOf } from "../data.js";
 import { laws, overBins, poisson } from "./laws.js";
 import { isGeometric } from "./series.js";
@@ -60,7 +61,7 @@ const snapshots = [
   {
     group: "wall_profiles", title: "Between walls: density", x: "position", y: "needles per volume",
     datasets: [["density", "along"]], places: "position", averaged: true,
-    caption: "Of centres, in slabs across each axis with walls.",
+    caption: "Of centres, in slabs across each axis with walls. Where a side is open, the axis ends with the needles; there are slabs beyond.",
   },
   {
     group: "wall_profiles", title: "Between walls: temperatures", x: "position", y: "energy",
@@ -116,11 +117,12 @@ const snapshots = [
   },
 ];
 
-/** The charts at one time that a run has: {chart, rows, curvesAt(row)}. */
+/** The charts at one time that a run has: {group, chart, curvesAt(row), rangeAt(row)}, the range of x
+ * where it is not that of the curves. */
 export function snapshotsOf(run) {
   // Of a mixture each is of each species, or of each two.
   const parts = (run.parts ?? []).flatMap((part) =>
-    snapshotsOf({ groups: part.groups }).map((one) => ({
+    snapshotsOf({ groups: part.groups, frames: run.frames }).map((one) => ({
       ...one, chart: { ...one.chart, title: `${one.chart.title}: ${part.name}` },
     })),
   );
@@ -137,6 +139,7 @@ function snapshotsOfGroups(run) {
       return {
         group,
         chart: {
+          group: spec.group,
           title: spec.title,
           caption: spec.caption,
           robust: spec.robust,
@@ -144,6 +147,7 @@ function snapshotsOfGroups(run) {
           y: { label: spec.y, log: log.includes("y") },
         },
         curvesAt: (row) => curvesAt(spec, group, row, means),
+        rangeAt: (row) => (spec.averaged ? rangeOfLayer(group, row, run.frames) : undefined),
       };
     });
 }
@@ -156,30 +160,67 @@ function curvesAt(spec, group, row, means) {
   return spec.untilEmpty ? all.map((curve) => shortened(curve, lastFilled(curves) + 2)) : all;
 }
 
+// Of the needles: how many may be beyond the end of an axis at an open side.
+const shareBeyond = 1e-3;
+
+// Of x, from wall to wall. At an open side slabs reach far beyond most layers, and the axis ends with
+// the layer, at this sample and in the mean.
+function rangeOfLayer(group, row, frames) {
+  const { density, thickness } = group.datasets;
+  const walled = axesOf(group);
+  const densities = [rowOf(density, row), isSteady(group) ? meanOfLaterHalf(group, density) : null].filter(Boolean);
+  const ends = walled.flatMap((name, n) => {
+    const slabs = densities[0].length / walled.length;
+    const open = openSides(frames).find(({ axis }) => axes[axis] === name);
+    const reached = densities.map((values) => {
+      const part = partOf(values, n, walled);
+      return endOfLayer(open?.high ? part : part.toReversed());
+    });
+    const [first, last] = [open && !open.high ? slabs - Math.max(...reached) : 0, open?.high ? Math.max(...reached) : slabs];
+    const begin = placesOf({ places: "position" }, group, slabs, n)[0] - numbers(thickness)[n] / 2;
+    return [first, last].map((slab) => begin + slab * numbers(thickness)[n]);
+  });
+  return [Math.min(...ends), Math.max(...ends)];
+}
+
+// The number of slabs up to where only this share of all is beyond; 1 at least.
+function endOfLayer(densities) {
+  const sum = densities.reduce((a, b) => a + b, 0);
+  let beyond = 0;
+  const last = densities.findLastIndex((value) => (beyond += value) > shareBeyond * sum);
+  return Math.max(last + 1, 1);
+}
+
+function isSteady(group) {
+  return group.rows >= 4 && !isGeometric(numbers(group.time));
+}
+
 // Curves of the mean over the later half of the samples.
 function meansOf(spec, group) {
-  if (!spec.averaged || group.rows < 4 || isGeometric(numbers(group.time))) return [];
-  const weights = group.datasets.density;
-  const slabs = rowOf(weights, 0).length;
-  const meanOf = (dataset) => {
-    const width = rowOf(dataset, 0).length / slabs;
-    const sum = new Float64Array(slabs * width);
-    const total = new Float64Array(slabs);
-    const first = Math.floor(group.rows / 2);
-    for (let row = first; row < group.rows; ++row) {
-      const [values, weight] = [rowOf(dataset, row), rowOf(weights, row)];
-      for (let n = 0; n < slabs; ++n) {
-        total[n] += weight[n];
-        // Without needles a slab has no values.
-        for (let k = n * width; weight[n] > 0 && k < (n + 1) * width; ++k) sum[k] += values[k] * weight[n];
-      }
-    }
-    if (dataset === weights) return total.map((value) => value / (group.rows - first));
-    return sum.map((value, k) => value / total[Math.floor(k / width)]);
-  };
-  return curvesOfRow(spec, group, meanOf).map((curve) => (
+  if (!spec.averaged || !isSteady(group)) return [];
+  return curvesOfRow(spec, group, (dataset) => meanOfLaterHalf(group, dataset)).map((curve) => (
     { ...curve, name: `${curve.name}, mean of the later half`, points: false }
   ));
+}
+
+// Of a dataset of slabs, weighted by the density.
+function meanOfLaterHalf(group, dataset) {
+  const weights = group.datasets.density;
+  const slabs = rowOf(weights, 0).length;
+  const width = rowOf(dataset, 0).length / slabs;
+  const sum = new Float64Array(slabs * width);
+  const total = new Float64Array(slabs);
+  const first = Math.floor(group.rows / 2);
+  for (let row = first; row < group.rows; ++row) {
+    const [values, weight] = [rowOf(dataset, row), rowOf(weights, row)];
+    for (let n = 0; n < slabs; ++n) {
+      total[n] += weight[n];
+      // Without needles a slab has no values.
+      for (let k = n * width; weight[n] > 0 && k < (n + 1) * width; ++k) sum[k] += values[k] * weight[n];
+    }
+  }
+  if (dataset === weights) return total.map((value) => value / (group.rows - first));
+  return sum.map((value, k) => value / total[Math.floor(k / width)]);
 }
 
 function lastFilled(curves) {

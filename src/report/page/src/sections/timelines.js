@@ -136,6 +136,29 @@ function cellsOf({ groups, count }) {
   return shape ? { cells: shape[1] * shape[2] * shape[3], needles: count } : null;
 }
 
+// With the part that the motion of the centres alone has.
+function pressureOfRods({ groups, frames, count }) {
+  const { datasets, time } = groups.rods;
+  const { t, of } = totals(groups);
+  const volume = frames.box.reduce((product, edge) => product * edge, 1);
+  return [
+    { name: "pressure", x: numbers(time), y: column(datasets.pressure), colour: 0, points: true },
+    { name: "ideal gas, N T_tr / V", x: t, y: of("t_tr").map((t_tr) => (count * t_tr) / volume), colour: -1, dashed: true },
+  ];
+}
+
+// Since the start, and between a sample and the one before it.
+function timeInContact({ groups, count }) {
+  const { datasets, time } = groups.contacts;
+  const x = numbers(time);
+  const spent = column(datasets.time);
+  const since = x.map((t, n) => (n ? ((2 / count) * (spent[n] - spent[n - 1])) / (t - x[n - 1]) : NaN));
+  return [
+    { name: "since the sample before", x, y: since, colour: 0, points: true },
+    { name: "since the start", x, y: column(datasets.share), colour: 1, points: true },
+  ];
+}
+
 // With the values that random velocities and positions have, where the grid is known.
 function flowOrder(context) {
   const [translational, rotational] = plain("flow_order", [
@@ -195,6 +218,23 @@ function repeats({ groups }) {
   const { datasets, time } = groups.collision_statistics;
   const y = divided(column(datasets.repeats), column(datasets.collisions));
   return [{ name: "share of repeats", x: numbers(time), y, colour: 0, points: true }];
+}
+
+/** Curves of time_correlation, of which the page holds one row. */
+function ofLag(fields) {
+  return ({ groups }) => {
+    const { datasets } = groups.time_correlation;
+    return fields.map(([name, text], colour) => (
+      { name: text, x: numbers(datasets.lag), y: numbers(datasets[name]), colour, points: true }
+    ));
+  };
+}
+
+function lagCaption(what) {
+  return ({ groups }) => {
+    const { mean_of_rows: rows } = groups.time_correlation;
+    return `${what} ${rows ? `Mean over the ${rows} samples, as many as each lag has.` : "Between the last sample and those before it, as the samples are not evenly spaced in time."}`;
+  };
 }
 
 // Since the start of the run, which is the first reference; in a steady state, whose samples have one
@@ -267,6 +307,24 @@ const timelines = [
     curves: ofPairs, caption: "Since the start.",
   },
   {
+    group: "rods", title: "Pressure", y: "energy / volume", log: "xy", curves: pressureOfRods, robust: true,
+    caption: "By the virial of the collisions since the sample before, beside that of an ideal gas of as many centres.",
+  },
+  {
+    group: "contacts", title: "Time in contact", y: "share of the time", log: "x", curves: timeInContact,
+    caption: "Share of its time that a needle slides on another, the mean of all.",
+  },
+  {
+    group: "contacts", title: "Contacts", y: "contacts", log: "xy",
+    curves: plain("contacts", [
+      ["entered", "entered"],
+      ["ended_by_force", "ended by force"],
+      ["ended_by_tip", "ended at a tip"],
+      ["ended_by_strike", "ended by strikes"],
+    ]),
+    caption: "Since the start.",
+  },
+  {
     group: "flow_order", title: "Order of the flow, S", y: "S", log: "xy", curves: flowOrder,
     caption: "Energy of the flow of the cells, divided by that of the motion relative to it.",
   },
@@ -312,7 +370,30 @@ const timelines = [
     curves: overLag([["p1", "⟨cos⟩"], ["p2", "⟨(3 cos² − 1)/2⟩"]]),
     caption: "Of the angle between the director and that at the start; in a steady state the mean over all reference times.",
   },
+  {
+    group: "time_correlation", title: "Displacement over time", x: "lag", y: "length²", log: "xy", always: true,
+    curves: ofLag([["parallel", "along the needle"], ["perpendicular", "across it"]]),
+    caption: lagCaption("Mean square, along the earlier director and across it (two directions)."),
+  },
+  {
+    group: "time_correlation", title: "Correlation of directors", x: "lag", y: "correlation", log: "x", always: true,
+    curves: ofLag([["p1", "⟨cos⟩"], ["p2", "⟨(3 cos² − 1)/2⟩"]]),
+    caption: lagCaption("Of the angle between the directors then and now."),
+  },
+  {
+    group: "time_correlation", title: "Correlation of velocities", x: "lag", y: "length² / time²", log: "x", always: true,
+    curves: ofLag([["velocity", "velocity"], ["velocity_parallel", "along the needle"], ["velocity_perpendicular", "across it"]]),
+    caption: lagCaption("Mean product of the velocities then and now; along and across the director at each time."),
+  },
+  {
+    group: "time_correlation", title: "Correlation of angular velocities", x: "lag", y: "radians² / time²", log: "x", always: true,
+    curves: ofLag([["angular_velocity", "angular velocity"]]),
+    caption: lagCaption("Mean product of the angular velocities then and now."),
+  },
 ];
+
+// Those whose abscissa is their own, so that they need no samples of the whole gas.
+const overLags = ["displacement", "time_correlation"];
 
 /** The charts that a run has: descriptions for curvesChart, without a range of time. */
 export function timelinesOf(run) {
@@ -330,8 +411,9 @@ function timelinesOfGroups(run, groups, count) {
   const samples = run.groups.totals;
   const overDecades = samples ? spansDecades(numbers(samples.time)) : false;
   return timelines
-    .filter(({ group }) => groups[group] && (samples || group === "displacement"))
+    .filter(({ group }) => groups[group] && (samples || overLags.includes(group)))
     .map(({ group, title, caption, x = "time", y, log, always, robust, curves }) => ({
+      group,
       title,
       caption: typeof caption === "function" ? caption(context) : caption,
       notes: notesOf(groups[group]),
