@@ -7,7 +7,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any, Callable, Union
 
 import numpy as np
 
@@ -22,39 +22,46 @@ if TYPE_CHECKING:
 
 Source = Union[Recording, Series, str, "os.PathLike[str]"]
 
-__all__ = ["cooling", "needles", "temperature_ratio"]
+__all__ = ["cooling", "needles", "temperature_ratio", "temperatures"]
 
 _MEASURED = {"color": "#d1495b", "marker": "o", "markersize": 4, "linestyle": "none"}
 _THEORY = {"color": "#1d3557", "linewidth": 1.6, "label": "kinetic theory"}
+# Of each species; of more, the first are drawn.
+_SPECIES = ("#2a9d8f", "#e9a23b", "#6a4c93", "#5b8e3e", "#f3722c", "#577590", "#b56576", "#8d6e63")
 
 
 def cooling(source: Source, gas: Values | None = None,
             axes: Axes | None = None) -> Axes:
-    """The energy over its first value against time, beside kinetic theory."""
+    """The energy over its first value against time, beside kinetic theory. Of the file of a mixture
+    also the energy per body of each species, over the first value of all."""
+    series, gas, by_species = _series_and_gas(source, gas)
+    start = series.energy[0]
+    axes = axes or _new_axes()
+    _draw(axes, series, gas, by_species, [("", lambda of: of.energy / start)])
+    return _finished(axes, "E / E(0)")
+
+
+def temperatures(source: Source, gas: Values | None = None,
+                 axes: Axes | None = None) -> Axes:
+    """The translational and the rotational temperature against time, beside kinetic theory; of the
+    file of a mixture also those of each species. Spheres have no rotational temperature."""
     series, gas, by_species = _series_and_gas(source, gas)
     axes = axes or _new_axes()
-    later, start = series.time > 0, series.energy[0]
-    times, curve = _theory(series, gas, by_species)
-    axes.loglog(times, curve.energy / start, **_THEORY)
-    axes.loglog(series.time[later], series.energy[later] / start, **_MEASURED,
-                label=f"{gas.count} needles")
-    return _finished(axes, "E / E(0)")
+    _draw(axes, series, gas, by_species, [(r"$T_{\rm tr}$", lambda of: of.t_tr),
+                                          (r"$T_{\rm rot}$", lambda of: of.t_rot)])
+    return _finished(axes, "temperature")
 
 
 def temperature_ratio(source: Source, gas: Values | None = None,
                       axes: Axes | None = None) -> Axes:
-    """The ratio of translational and rotational temperature against time, beside theory. Spheres
-    have no such ratio; of a mixture with them, the rotational energy is that per body."""
+    """The ratio of translational and rotational temperature against time, beside theory; of the
+    file of a mixture also that of each species. Spheres have no such ratio."""
     series, gas, by_species = _series_and_gas(source, gas)
     if not np.any(gas.length):
         raise InputError("source: spheres do not rotate: expected a gas of needles or rods, which "
                          "has a rotational temperature")
     axes = axes or _new_axes()
-    later = (series.time > 0) & (series.t_rot > 0)
-    times, curve = _theory(series, gas, by_species)
-    axes.loglog(times, curve.t_tr / curve.t_rot, **_THEORY)
-    axes.loglog(series.time[later], series.t_tr[later] / series.t_rot[later], **_MEASURED,
-                label=f"{gas.count} needles")
+    _draw(axes, series, gas, by_species, [("", lambda of: of.t_tr / of.t_rot)])
     return _finished(axes, r"$T_{\rm tr} / T_{\rm rot}$")
 
 
@@ -98,24 +105,58 @@ def _series_and_gas(source: Source, gas: Values | None) -> tuple[Series, Values,
             source.observable("species") if "species" in source.gas else None)
 
 
-def _theory(series: Series, gas: Values, by_species: Values | None) -> tuple[np.ndarray, Values]:
-    """At the times of the series but 0, as long as the gas was left to itself."""
+def _draw(axes: Axes, series: Series, gas: Values, by_species: Values | None,
+          quantities: list[tuple[str, Callable[[Any], np.ndarray]]]) -> None:
+    """Of all bodies and of each species, each quantity as points beside the line of theory, where
+    it is above 0."""
+    times, curve, curve_by_species = _theory(series, gas, by_species)
+    parts = [(f"{gas.count} needles", series, curve)]
+    if by_species is not None:
+        names = gas.species[:len(_SPECIES)]
+        parts += [(name, _of_species(by_species, n), _of_species(curve_by_species, n))
+                  for n, name in enumerate(names)]
+    colours = iter([_MEASURED["color"], *_SPECIES])
+    line = dict(_THEORY)
+    for name, measured, expected in parts:
+        colour = next(colours)
+        for (text, quantity), fill in zip(quantities, (colour, "none")):
+            with np.errstate(divide="ignore", invalid="ignore"):
+                values, theoretical = quantity(measured), quantity(expected)
+            shown = (series.time > 0) & np.isfinite(values) & (values > 0)
+            if not np.any(shown):
+                continue
+            axes.loglog(times, theoretical, **line)
+            line.pop("label", None)
+            label = f"{text} of {name}" if text else name
+            axes.loglog(series.time[shown], values[shown],
+                        **{**_MEASURED, "color": colour}, markerfacecolor=fill, label=label)
+
+
+def _of_species(sums: Values, n: int) -> Values:
+    t_tr, t_rot = sums.t_tr[:, n], sums.t_rot[:, n]
+    return Values({"t_tr": t_tr, "t_rot": t_rot, "energy": 1.5 * t_tr + t_rot})
+
+
+def _theory(series: Series, gas: Values,
+            by_species: Values | None) -> tuple[np.ndarray, Values, Values | None]:
+    """At the times of the series but 0, as long as the gas was left to itself: of all, and of each
+    species of a mixture."""
     last = gas.get("undisturbed_until", np.inf)
     times = series.time[(series.time > 0) & (series.time <= last)]
     if by_species is not None:
         curve = theory.mixture_cooling(gas, by_species.t_tr[0], by_species.t_rot[0], times)
         turning = np.where(gas.length > 0, gas.counts, 0)
         return times, Values({"energy": curve.energy, "t_tr": curve.t_tr @ gas.counts / gas.count,
-                              "t_rot": curve.t_rot @ turning / np.sum(turning)})
+                              "t_rot": curve.t_rot @ turning / np.sum(turning)}), curve
     if "diameter" in gas:
         curve = theory.mixture_cooling(gas, series.t_tr[0], series.t_rot[0], times)
         return times, Values({"energy": curve.energy, "t_tr": curve.t_tr[:, 0],
-                              "t_rot": curve.t_rot[:, 0]})
+                              "t_rot": curve.t_rot[:, 0]}), None
     # Needles of length L and mass m collide as often as those of length 1 and mass 1 at the
     # density n L^2 / sqrt(m).
     density = gas.count / np.prod(gas.box) * gas.length**2 / np.sqrt(gas.mass)
     return times, theory.cooling(gas.epsilon, gas.k, gas.beta, series.t_rot[0],
-                                 theory.tau(times, density), series.t_tr[0])
+                                 theory.tau(times, density), series.t_tr[0]), None
 
 
 def _finished(axes: Axes, label: str) -> Axes:

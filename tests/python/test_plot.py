@@ -49,6 +49,13 @@ class Pictures(unittest.TestCase):
         self.assertAlmostEqual(measured.get_ydata()[0], 1, places=1)
         np.testing.assert_allclose(theory.get_ydata(), measured.get_ydata(), rtol=0.5)
 
+    def test_temperatures_are_those_of_the_series(self):
+        axes = plot.temperatures(self.recording)
+        _, t_tr, _, t_rot = axes.lines
+        np.testing.assert_array_equal(t_tr.get_ydata(), self.recording.series.t_tr[1:])
+        np.testing.assert_array_equal(t_rot.get_ydata(), self.recording.series.t_rot[1:])
+        self.assertEqual(len(axes.get_legend().get_texts()), 3)
+
     def test_spheres_have_no_ratio_of_temperatures(self):
         sim = Simulation({"needles": {"box": 6.0},
                           "species": [{"name": "balls", "count": 20, "length": 0,
@@ -97,6 +104,54 @@ class Pictures(unittest.TestCase):
     def test_a_series_alone_needs_the_gas(self):
         with self.assertRaisesRegex(needlework.InputError, "gas is missing"):
             plot.cooling(self.series)
+
+
+class PicturesOfAMixture(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.addCleanup(pyplot.close, "all")
+        self.path = Path(folder.name, "run.h5")
+        species = [{"name": "light", "count": 60, "diameter": 0.1},
+                   {"name": "heavy", "count": 30, "diameter": 0.1, "mass": 5.0},
+                   {"name": "balls", "count": 30, "diameter": 0.4, "length": 0}]
+        scene = gas(output={"file": str(self.path)}, until={"collisions_per_needle": 3})
+        scene["needles"] = {"box": 8.0, "seed": 3}
+        with Simulation({**scene, "species": species}) as sim:
+            sim.run()
+        with read(self.path) as recording:
+            self.series, self.sums = recording.series, recording.observable("species")
+
+    def measured(self, axes):
+        """The points by their names in the legend, beside how many lines of theory there are."""
+        named = {text.get_text() for text in axes.get_legend().get_texts()}
+        points = {line.get_label(): line for line in axes.lines if line.get_marker() == "o"}
+        self.assertEqual(named, {*points, "kinetic theory"})
+        self.assertEqual(len(axes.lines), 2 * len(points))
+        self.assertEqual(len({(line.get_color(), line.get_markerfacecolor())
+                              for line in points.values()}), len(points))
+        return points
+
+    def test_energy_is_that_of_each_species(self):
+        points = self.measured(plot.cooling(self.path))
+        self.assertEqual(list(points), ["120 needles", "light", "heavy", "balls"])
+        energy = 1.5 * self.sums.t_tr + self.sums.t_rot
+        for n, name in enumerate(("light", "heavy", "balls")):
+            np.testing.assert_array_equal(points[name].get_ydata(),
+                                          energy[1:, n] / self.series.energy[0])
+
+    def test_temperatures_are_those_of_each_species_that_turns(self):
+        points = self.measured(plot.temperatures(self.path))
+        self.assertEqual(len(points), 2 + 2 + 2 + 1)
+        np.testing.assert_array_equal(points[r"$T_{\rm rot}$ of heavy"].get_ydata(),
+                                      self.sums.t_rot[1:, 1])
+        self.assertNotIn(r"$T_{\rm rot}$ of balls", points)
+
+    def test_the_ratio_of_temperatures_is_that_of_each_species_that_turns(self):
+        points = self.measured(plot.temperature_ratio(self.path))
+        self.assertEqual(list(points), ["120 needles", "light", "heavy"])
+        np.testing.assert_array_equal(points["light"].get_ydata(),
+                                      self.sums.t_tr[1:, 0] / self.sums.t_rot[1:, 0])
 
 
 if __name__ == "__main__":
