@@ -6,6 +6,7 @@
 //   t_tr, t_rot   m <v^2> / 3, I <w^2> / 2
 //   t_normal      m <(v . e)^2>
 //   p2            <(3 (u . e)^2 - 1) / 2>
+//   cos2          <(u . e)^2>, 1/3 for random directors; no value for spheres, which have none
 //   order_tensor  <(3 u u - 1) / 2>, whose component along e twice is p2
 //   outside       number of needles in no slab
 //
@@ -23,7 +24,7 @@ namespace {
 
 // Sums over the needles in one slab.
 struct SlabSums {
-  double count = 0, v_normal = 0, v2 = 0, v2_normal = 0, w2 = 0, p2 = 0;
+  double count = 0, v_normal = 0, v2 = 0, v2_normal = 0, w2 = 0, p2 = 0, cos2 = 0;
   OrderTensor order;
 };
 
@@ -62,6 +63,10 @@ class WallProfiles : public Observable {
          unit::energy, each},
         {"p2", "Mean of (3 cos^2 - 1) / 2 of the angle between orientation and axis in each slab",
          unit::none, each},
+        {"cos2",
+         "Mean square cosine of the angle between orientation and axis in each slab; NaN of "
+         "spheres",
+         unit::none, each},
         {"order_tensor", "Mean of (3 u u - 1) / 2 over the orientations u in each slab", unit::none,
          tensors},
         {"outside", "Number of needles in no slab across each axis", unit::none, axes,
@@ -98,6 +103,7 @@ class WallProfiles : public Observable {
     put_mean(&SlabSums::w2, gas_.inertia / 2);
     put_mean(&SlabSums::v2_normal, gas_.mass);
     put_mean(&SlabSums::p2, 1);
+    put_mean(&SlabSums::cos2, gas_.inertia > 0 ? 1 : std::numeric_limits<double>::quiet_NaN());
     for (const std::vector<SlabSums>& slabs : axes)
       for (const SlabSums& slab : slabs) slab.order.put(row);
     row.put_all(outside);
@@ -119,6 +125,7 @@ class WallProfiles : public Observable {
       sums.w2 += dot(w, w);
       const Vector& u = state.orientation[i];
       sums.p2 += second_legendre(u[slabs.axis]);
+      sums.cos2 += u[slabs.axis] * u[slabs.axis];
       sums.order.add(u);
     }
     return out;

@@ -1,5 +1,6 @@
 // Profiles along axes with walls, the centre of mass, pressure and phase of walls: states made by
 // hand, whose values are known exactly.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -39,6 +40,9 @@ TEST(WallProfiles, AreThoseOfTheNeedlesInEachSlab) {
   EXPECT_DOUBLE_EQ(values["p2"][1], (1 - 0.5) / 2);
   EXPECT_DOUBLE_EQ(values["p2"][0], 1.5 * 0.64 - 0.5);
   EXPECT_DOUBLE_EQ(values["p2"][3], -0.5);
+  EXPECT_DOUBLE_EQ(values["cos2"][1], 0.5);
+  EXPECT_DOUBLE_EQ(values["cos2"][0], 0.64);
+  EXPECT_EQ(values["cos2"][3], 0);
   // Of u = (0, 0, 1) and (1, 0, 0), and of (0, 0.6, 0.8).
   const auto tensor = [&](std::size_t slab) {
     const auto begin = values["order_tensor"].begin() + static_cast<std::ptrdiff_t>(9 * slab);
@@ -49,9 +53,49 @@ TEST(WallProfiles, AreThoseOfTheNeedlesInEachSlab) {
   EXPECT_DOUBLE_EQ(tensor(0)[5], 1.5 * 0.6 * 0.8);
   EXPECT_DOUBLE_EQ(tensor(0)[7], 1.5 * 0.6 * 0.8);
   EXPECT_DOUBLE_EQ(tensor(0)[8], values["p2"][0]);
-  for (const char* name : {"flow", "t_tr", "t_rot", "t_normal", "p2", "order_tensor"}) {
+  for (const char* name : {"flow", "t_tr", "t_rot", "t_normal", "p2", "cos2", "order_tensor"}) {
     EXPECT_TRUE(std::isnan(values[name][values[name].size() / 2])) << name;
   }
+}
+
+// Of needles drawn between walls, at the distance d < 1/2 from one directors are uniform in
+// |u_z| < x = 2 d: from x = a to b, weighted by the density, which is proportional to x,
+// <u_z^2> = (a^2 + b^2) / 6 and <u_z^4> = (b^6 - a^6) / (15 (b^2 - a^2)). Tolerance: 4 standard
+// errors.
+TEST(WallProfiles, HaveTheAnglesOfAnIdealGasToTheWalls) {
+  constexpr std::size_t slabs = 24;
+  Scene scene = scene_with("wall_profiles", 20000, {9, 9, 3}, {1, 1, slabs});
+  scene.walls = {{.axis = "z", .side = "both"}};
+  Values values = Observed(scene).sample(draw_initial_state(scene));
+  for (std::size_t n = 0; n < slabs; ++n) {
+    const double a = 0.25 * static_cast<double>(std::min(n, slabs - 1 - n)), b = a + 0.25;
+    const bool is_bulk = a >= 1;
+    const double mean = is_bulk ? 1 / 3.0 : (a * a + b * b) / 6;
+    const double fourth =
+        is_bulk ? 1 / 5.0 : (std::pow(b, 6) - std::pow(a, 6)) / (15 * (b * b - a * a));
+    const double needles = values["density"][n] * 9 * 9 / 8;
+    EXPECT_GT(needles, 50);
+    EXPECT_NEAR(values["cos2"][n], mean, 4 * std::sqrt((fourth - mean * mean) / needles)) << n;
+  }
+}
+
+TEST(WallProfiles, LeaveSpheresOutOfTheAngles) {
+  Scene scene = walled("wall_profiles", 3);
+  scene.species = {{.name = "rod", .count = 2, .diameter = 0.1},
+                   {.name = "ball", .count = 1, .length = 0, .diameter = 0.5}};
+  State state = resting(3, walled_box);
+  state.position = {{1, 1, 1}, {1, 1, 1}, {1, 1, 5}};
+  state.orientation = {{0, 0, 1}, {0, 0, 1}, {0, 0.6, 0.8}};
+  state.species = {0, 1, 0};
+  Observation observation(scene);
+  SpeciesSums sums = no_sums(scene);
+  sums.totals = {{2, 0, 0}, {1, 0, 0}};
+  sums.collisions = {0, 0, 0};
+  const auto row = observation.sample(state, {}, sums);
+  const auto cos2 = row.last((1 + 9) * 8 + 2).first(8);
+  EXPECT_EQ(cos2[0], 1);
+  EXPECT_DOUBLE_EQ(cos2[2], 0.64);
+  for (std::size_t n = 4; n < 8; ++n) EXPECT_TRUE(std::isnan(cos2[n])) << n;
 }
 
 // Means over slabs are those of the gas.
@@ -120,10 +164,10 @@ TEST(WallProfiles, AreOfEachSpecies) {
   const std::vector<SeriesField>& fields = groups.back().fields;
   EXPECT_EQ(fields.at(0).shape.front().name, "species");
   EXPECT_EQ(fields.at(0).width(), 8u);
-  EXPECT_EQ(fields.at(9).name, "position");
-  EXPECT_EQ(fields.at(9).values, (std::vector<double>{1, 3, 5, 7}));  // of both
+  EXPECT_EQ(fields.at(10).name, "position");
+  EXPECT_EQ(fields.at(10).values, (std::vector<double>{1, 3, 5, 7}));  // of both
   // Densities, flows and t_tr of both.
-  const auto values = row.last(6 * 8 + 9 * 8 + 2);
+  const auto values = row.last(7 * 8 + 9 * 8 + 2);
   const double volume = 4 * 5 * 2;
   EXPECT_EQ(std::vector(values.begin(), values.begin() + 8),
             (std::vector<double>{1 / volume, 0, 0, 1 / volume, 0, 0, 1 / volume, 0}));

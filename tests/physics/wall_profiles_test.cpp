@@ -1,7 +1,7 @@
 // Profiles, pressure and centre of mass, as files hold them, of elastic gases in equilibrium, whose
 // positions and directors are those of an ideal gas: p(z, u) is exp(-m g z / T) wherever both tips
 // are inside. At the distance d < L/2 from a wall directors have |u_z| < x = 2 d / L, so that the
-// density is x times what it would be, and <P2(u_z)> = (x^2 - 1) / 2.
+// density is x times what it would be, and <u_z^2> = x^2 / 3.
 //
 // Tolerance: 3 standard errors of a mean, 4 of the worst slab of many, from the scatter of the
 // runs, each with a seed of its own.
@@ -47,7 +47,7 @@ Rows rows_of(observe::Observation& observation, const Simulation& simulation) {
 
 // Means over slabs, weighted by the density, and over samples.
 struct Averages {
-  std::vector<double> density, t_tr, t_rot, t_normal, p2;
+  std::vector<double> density, t_tr, t_rot, t_normal, p2, cos2;
   double pressure = 0, centre = 0, temperature = 0;
 };
 
@@ -62,7 +62,7 @@ Averages averages_of(const Scene& scene, double relaxed, double every, int sampl
     gas.advance(test::until_time(relaxed + every * n));
     Rows rows = rows_of(observation, gas);
     const std::vector<double>& density = rows["wall_profiles/density"];
-    for (const char* name : {"density", "t_tr", "t_rot", "t_normal", "p2"}) {
+    for (const char* name : {"density", "t_tr", "t_rot", "t_normal", "p2", "cos2"}) {
       sums[name].resize(density.size());
       for (std::size_t slab = 0; slab < density.size(); ++slab) {
         if (density[slab] == 0) continue;
@@ -88,6 +88,7 @@ Averages averages_of(const Scene& scene, double relaxed, double every, int sampl
   out.t_rot = mean("t_rot");
   out.t_normal = mean("t_normal");
   out.p2 = mean("p2");
+  out.cos2 = mean("cos2");
   return out;
 }
 
@@ -95,7 +96,7 @@ TEST(WallProfilesOfAnElasticGas, AreExactBetweenWalls_long) {
   constexpr double count = 300, side = 6, height = 3;
   constexpr std::size_t slabs = 24, half = slabs / 2;
   constexpr double room = height - 0.5, temperature = 5 * count / (5 * count - 2);
-  std::vector<Mean> density(half), p2(half), t_tr(half), t_rot(half), t_normal(half);
+  std::vector<Mean> density(half), p2(half), cos2(half), t_tr(half), t_rot(half), t_normal(half);
   Mean pressure;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     Scene scene = test::scene_of(count, side, seed);
@@ -110,6 +111,7 @@ TEST(WallProfilesOfAnElasticGas, AreExactBetweenWalls_long) {
     };
     add(density, found.density);
     add(p2, found.p2);
+    add(cos2, found.cos2);
     add(t_tr, found.t_tr);
     add(t_rot, found.t_rot);
     add(t_normal, found.t_normal);
@@ -126,6 +128,7 @@ TEST(WallProfilesOfAnElasticGas, AreExactBetweenWalls_long) {
     // Weighted by the density, <x^2> = (a^2 + b^2) / 2.
     EXPECT_TRUE(agrees(p2[n].measured(), ((a * a + b * b) / 2 - 1) / 2, 4));
     EXPECT_LT(p2[n].measured().error, 0.01);
+    EXPECT_TRUE(agrees(cos2[n].measured(), (a * a + b * b) / 6, 4));
     EXPECT_TRUE(agrees(t_tr[n].measured(), temperature, 4));
     EXPECT_TRUE(agrees(t_rot[n].measured(), temperature, 4));
     EXPECT_TRUE(agrees(t_normal[n].measured(), temperature, 4));

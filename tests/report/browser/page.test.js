@@ -424,6 +424,7 @@ test("walls have pressures, profiles with their means, and a budget of energy th
     ["Between walls: density", ["along z", "along z, mean of the later half"]],
     ["Between walls: temperatures", ["T_tr z", "T_rot z", "T along the axis z", "T_tr z, mean of the later half"]],
     ["Between walls: flow", ["along z"]],
+    ["Between walls: angle to the wall", ["along z", "along z, mean of the later half", "random directors"]],
     ["Between walls: order", ["P₂ along z", "nematic order z", "nematic order z, mean of the later half", "random directors"]],
   ]) {
     assert.equal(await chart(page, title).count(), 1, title);

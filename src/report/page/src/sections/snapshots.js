@@ -81,6 +81,11 @@ const snapshots = [
     caption: "P₂ = ⟨(3 cos² − 1)/2⟩ of the angle to the axis: 1 along it, −1/2 across it. The nematic order is the largest eigenvalue of ⟨(3 u u − 1)/2⟩; of n needles at random it is of the order 1/√n.",
   },
   {
+    group: "wall_profiles", title: "Between walls: angle to the wall", x: "position", y: "⟨cos²⟩",
+    datasets: [["cos2", "along"]], places: "position", averaged: true, level: [1 / 3, "random directors"],
+    caption: "Mean square cosine of the angle between needle and axis: 0 for needles that lie along the wall.",
+  },
+  {
     group: "pair_correlation", title: "Pair correlation", x: "distance", y: "g", datasets: [["g", "g"]],
     borders: "borders", level: [1, "random positions"],
     caption: "Pairs of centres by distance, divided by that of random positions.",

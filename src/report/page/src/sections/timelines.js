@@ -308,7 +308,7 @@ const timelines = [
   },
   {
     group: "rods", title: "Pressure", y: "energy / volume", log: "xy", curves: pressureOfRods, robust: true,
-    caption: "By the virial of the collisions since the sample before, beside that of an ideal gas of as many centres.",
+    caption: "Mean since the sample before, beside that of an ideal gas of as many centres in the box.",
   },
   {
     group: "contacts", title: "Time in contact", y: "share of the time", log: "x", curves: timeInContact,
