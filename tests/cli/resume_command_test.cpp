@@ -68,7 +68,8 @@ TEST_P(ResumeAfterASignal, GoesOn) {
   write("long.toml", read("gas.toml") + "[engine]\nsearch = \"linked-lists\"\n");
   const std::string more = " --set needles.count=2000 --set needles.box=13 ";
   const std::string whole = hash_of("run long.toml --out whole.h5" + more);
-  const std::string signal = GetParam(), file = signal + ".h5";
+  const std::string name = GetParam(), signal = name.substr(0, name.find("_long")),
+                    file = signal + ".h5";
   const Outcome stopped = run_and_signal("run long.toml --quiet --out " + file + more,
                                          "test -e " + file + ".checkpoint", signal);
   ASSERT_EQ(stopped.exit_code, 75) << stopped.err;
@@ -77,7 +78,8 @@ TEST_P(ResumeAfterASignal, GoesOn) {
   EXPECT_EQ(hash_of("resume " + file), whole);
 }
 
-INSTANTIATE_TEST_SUITE_P(Signals, ResumeAfterASignal, testing::Values("INT", "TERM", "HUP"),
+INSTANTIATE_TEST_SUITE_P(Signals, ResumeAfterASignal,
+                         testing::Values("INT", "TERM_long", "HUP_long"),
                          [](const auto& signal) { return std::string(signal.param); });
 
 TEST_F(ResumeCommand, GoesOnAfterTheTimeLimitWhichCountsAnew) {

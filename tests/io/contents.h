@@ -28,9 +28,9 @@ struct Content {
 };
 
 /// The datasets by their paths.
-using Contents = std::map<std::string, Content>;
+using Recorded = std::map<std::string, Content>;
 
-inline void read_group(hid_t file, const std::string& group, Contents& contents) {
+inline void read_group(hid_t file, const std::string& group, Recorded& contents) {
   const hdf5::Handle opened = hdf5::open_group(file, group + "/", group);
   for (const std::string& name : hdf5::children(opened.get(), group)) {
     const std::string path = group + "/" + name;
@@ -55,15 +55,15 @@ inline void read_group(hid_t file, const std::string& group, Contents& contents)
 }
 
 /// Reads the file as any other program does.
-inline Contents read_contents(const std::string& path) {
+inline Recorded read_contents(const std::string& path) {
   const hdf5::Session session;
   const hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, path);
-  Contents contents;
+  Recorded contents;
   read_group(file.get(), "", contents);
   return contents;
 }
 
-inline void expect_same(const Contents& expected, const Contents& found) {
+inline void expect_same(const Recorded& expected, const Recorded& found) {
   for (const auto& [path, content] : expected) {
     const auto at = found.find(path);
     ASSERT_NE(at, found.end()) << path;

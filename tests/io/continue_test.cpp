@@ -16,7 +16,7 @@ TEST_F(Continuing, AFileContinuesWhereItWasClosed_long) {
     const std::string path = file("part.h5"), full = file("full.h5");
     std::filesystem::remove(full);
     write_all(full, plan);
-    const Contents expected = read_contents(full);
+    const Recorded expected = read_contents(full);
     for (const int steps : {0, 1, 3, plan.steps - 1, plan.steps}) {
       SCOPED_TRACE(steps);
       Checkpoint checkpoint;
@@ -81,7 +81,7 @@ TEST_F(Continuing, AFileContinuesFromItsBeginning) {
 
 TEST_F(Continuing, AFileCanBeReadMeanwhile) {
   write_all(file("full.h5"), small);
-  const Contents full = read_contents(file("full.h5"));
+  const Recorded full = read_contents(file("full.h5"));
   Checkpoint checkpoint = write_stopped(file("a.h5"), small, 2, 1);
   // A reader that opened the file before does not stand in the way.
   const hdf5::Handle reader(H5Fopen(file("a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,

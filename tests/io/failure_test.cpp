@@ -12,13 +12,14 @@ namespace {
 
 using Failing = InFolder;
 
-const RunInfo run{"sse4", 1, 0.5};
+const RunInfo failing_run{"sse4", 1, 0.5};
 
 TEST_F(Failing, UnwritableFolderIsNamed) {
   chmod(folder_.c_str(), 0555);
   const std::string path = file("a.h5");
-  EXPECT_EQ(message_in_child(become_nobody, [&] { Writer(path, false, make_scene(1), run); }),
-            path + ": Permission denied");
+  EXPECT_EQ(
+      message_in_child(become_nobody, [&] { Writer(path, false, make_scene(1), failing_run); }),
+      path + ": Permission denied");
   chmod(folder_.c_str(), 0755);
   EXPECT_TRUE(files().empty());
 }
@@ -31,7 +32,7 @@ std::string write_to_full_disk(const std::string& folder, const std::string& pat
         disk = {folder, first, for_good ? Disk::Event::full : Disk::Event::full_once};
       },
       [&] {
-        Writer writer(path, false, make_scene(100, true), run);
+        Writer writer(path, false, make_scene(100, true), failing_run);
         for (int frame = 0; frame < 2; ++frame) {
           State state = make_state(100);
           for (auto& image : state.image) image = {frame, 0, 0};
@@ -87,7 +88,7 @@ TEST_F(Failing, TheSizeOfFilesMayBeLimited) {
     setrlimit(RLIMIT_FSIZE, &files);
   };
   const std::string message = message_in_child(prepare, [&] {
-    Writer writer(path, false, make_scene(100, true), run);
+    Writer writer(path, false, make_scene(100, true), failing_run);
     for (int frame = 0;; ++frame) {
       writer.write_frame(make_totals(frame), make_state(100));
       writer.flush();
@@ -101,7 +102,7 @@ TEST_F(Failing, TheSizeOfFilesMayBeLimited) {
 
 // Only then can kill -9 not leave half a change in the metadata.
 TEST_F(Failing, SmallWritesNeverCrossAPage) {
-  Writer writer(file("a.h5"), false, make_scene(700, true), run);
+  Writer writer(file("a.h5"), false, make_scene(700, true), failing_run);
   disk = {folder_.string()};
   const State state = make_state(700);
   for (int frame = 0; frame < 700; ++frame) {
@@ -121,7 +122,7 @@ TEST_F(Failing, AFailedWriterStaysFailed) {
   const std::string path = file("a.h5");
   const auto message = message_in_child([] {},
                                         [&] {
-                                          Writer writer(path, false, make_scene(9), run);
+                                          Writer writer(path, false, make_scene(9), failing_run);
                                           writer.write_frame(make_totals(0), make_state(9));
                                           writer.flush();
                                           disk = {folder_.string(), 0, Disk::Event::full_once};

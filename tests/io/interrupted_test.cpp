@@ -17,7 +17,7 @@ TEST_F(Continuing, AKillInAnyWriteLosesNothing_long) {
   for (const Plan& plan : {brief, large}) {
     std::filesystem::remove(file("full.h5"));
     write_all(file("full.h5"), plan);
-    const Contents full = read_contents(file("full.h5"));
+    const Recorded full = read_contents(file("full.h5"));
     int again_at = 0;
     int kills = 0;
     // Not each write of the large file, for time.
@@ -56,11 +56,11 @@ TEST_F(Continuing, AKillWhileRowsAreRemovedLosesNothing_long) {
   for (const Plan& plan : {small, large}) {
     std::filesystem::remove(file("full.h5"));
     write_all(file("full.h5"), plan);
-    const Contents full = read_contents(file("full.h5"));
+    const Recorded full = read_contents(file("full.h5"));
     const SharedCheckpoint checkpoint;
     *checkpoint = write_stopped(file("stopped.h5"), plan, 4, 3);
     const Checkpoint beginning = *checkpoint;
-    const Contents stopped = read_contents(file("stopped.h5"));
+    const Recorded stopped = read_contents(file("stopped.h5"));
     int kills = 0;
     for (int at = 0;; ++at) {
       SCOPED_TRACE(testing::Message() << "killed in write " << at);
@@ -81,7 +81,7 @@ TEST_F(Continuing, AKillWhileRowsAreRemovedLosesNothing_long) {
 TEST_F(Continuing, AKillAtAnyMomentLosesNothing) {
   std::mt19937_64 random(11);
   write_all(file("full.h5"), large);
-  const Contents full = read_contents(file("full.h5"));
+  const Recorded full = read_contents(file("full.h5"));
   const std::string path = file("killed.h5");
   for (int round = 0; round < 8; ++round) {
     const SharedCheckpoint checkpoint;
@@ -107,9 +107,9 @@ TEST_F(Continuing, AKillAtAnyMomentLosesNothing) {
 TEST_F(Continuing, AFullDiskLosesNothing) {
   const std::string path = file("a.h5"), folder = folder_.string();
   write_all(file("full.h5"), small);
-  const Contents full = read_contents(file("full.h5"));
+  const Recorded full = read_contents(file("full.h5"));
   const Checkpoint beginning = write_stopped(file("stopped.h5"), small, 3, 1);
-  const Contents stopped = read_contents(file("stopped.h5"));
+  const Recorded stopped = read_contents(file("stopped.h5"));
   const SharedCheckpoint checkpoint;
   for (const auto event : {Disk::Event::full, Disk::Event::full_once}) {
     for (int at = 0;; at += 67) {

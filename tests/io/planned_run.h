@@ -175,7 +175,7 @@ inline std::pair<std::string, std::uint64_t> markers_of(const std::string& path,
 }
 
 // The values of the entries that are complete, one after the other.
-inline std::vector<double> complete_data(const Contents& contents) {
+inline std::vector<double> complete_data(const Recorded& contents) {
   double end = 0;
   for (std::size_t n = 0; n < contents.at("/user_data/step").shape[0]; ++n) {
     end += std::max(contents.at("/user_data/size").numbers[n], 0.0);
@@ -186,8 +186,8 @@ inline std::vector<double> complete_data(const Contents& contents) {
 
 // The complete rows of the file of an unfinished run are those of the full run. The last one may be
 // that of the `stopped` run whose file is continued, if it is so in all datasets.
-inline void expect_complete_rows(const Contents& found, const Contents& full,
-                                 const Checkpoint& checkpoint, const Contents* stopped = nullptr) {
+inline void expect_complete_rows(const Recorded& found, const Recorded& full,
+                                 const Checkpoint& checkpoint, const Recorded* stopped = nullptr) {
   for (const auto& [path, content] : found) {
     const auto [markers, noted] = markers_of(path, checkpoint.position);
     if (full.at(path) == content) continue;
@@ -205,7 +205,7 @@ inline void expect_complete_rows(const Contents& found, const Contents& full,
     for (std::size_t row = 0; row < rows; ++row) {
       const bool of_stopped = stopped && row < stopped->at(markers).shape[0] &&
                               found.at(markers).row(row) == stopped->at(markers).row(row);
-      const Contents& expected = of_stopped ? *stopped : full;
+      const Recorded& expected = of_stopped ? *stopped : full;
       ASSERT_EQ(content.row(row), expected.at(path).row(row)) << path << " row " << row;
       ASSERT_EQ(content.text(row), expected.at(path).text(row)) << path << " row " << row;
     }

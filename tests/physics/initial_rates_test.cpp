@@ -159,12 +159,12 @@ INSTANTIATE_TEST_SUITE_P(Smooth_long, InitialRates,
                          gas_name);
 
 INSTANTIATE_TEST_SUITE_P(Rough, InitialRates,
-                         testing::Values(FreshGas{0.72, {6, 0.8, 0.5}, 1, 0.03, 3000, 50000},
-                                         FreshGas{3, {6, 1, 0}, 1, 0.05, 1000, 60000},
+                         testing::Values(FreshGas{3, {6, 1, 0}, 1, 0.05, 1000, 60000},
                                          FreshGas{20, {6, 0.8, -0.5}, 1, 0.1, 200, 90000}),
                          gas_name);
 INSTANTIATE_TEST_SUITE_P(Rough_long, InitialRates,
-                         testing::Values(FreshGas{0.72, {2, 1, -0.5}, 3, 0.03, 3000, 70000},
+                         testing::Values(FreshGas{0.72, {6, 0.8, 0.5}, 1, 0.03, 3000, 50000},
+                                         FreshGas{0.72, {2, 1, -0.5}, 3, 0.03, 3000, 70000},
                                          FreshGas{0.72, {20, 0.5, 0.5}, 0, 0.03, 3000, 80000}),
                          gas_name);
 
