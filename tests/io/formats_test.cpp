@@ -344,6 +344,7 @@ TEST_F(Formats, SayWhichAxesArePeriodicAndWhatEndsTheOthers) {
 
 // Forces of a dump are those of gravity if they give all needles the same acceleration.
 TEST_F(Formats, DumpsHaveGravityAsForces) {
+  std::string left_out;
   const auto gravity = [&](const std::string& boundary, const char* first, const char* second) {
     std::ofstream(file("a.dump"))
         << "ITEM: TIMESTEP\n7\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS " << boundary
@@ -351,15 +352,20 @@ TEST_F(Formats, DumpsHaveGravityAsForces) {
            "omegaz fx fy fz\n"
         << "1 1 2 6 1 2 3 4 5 6 1 0 0 0 7 8 " << first << "\n"
         << "2 2 4 6 4 2 3 4 5 6 1 0 0 0 7 8 " << second << "\n";
-    return read_configuration(file("a.dump")).material.gravity;
+    const Configuration read = read_configuration(file("a.dump"));
+    left_out = read.notes.empty() ? "" : read.notes.back();
+    return read.material.gravity;
   };
   using Vector = std::array<double, 3>;
   EXPECT_EQ(gravity("pp pp fs", "0 0 -3", "0 0 -6"), (Vector{0, 0, -1.5}));
   EXPECT_EQ(gravity("pp pp ff", "0 0 -3", "0 0 -6"), (Vector{0, 0, -1.5}));
   EXPECT_EQ(gravity("pp pp fs", "0 0 -3", "0 0 -5.99998"), (Vector{0, 0, -1.5}));
   EXPECT_EQ(gravity("pp pp fs", "0 0 -3", "0 0 -3"), Vector{});  // not the same acceleration
+  EXPECT_EQ(left_out.find("[0"), std::string::npos) << left_out;
   EXPECT_EQ(gravity("pp pp fs", "1 0 -3", "2 0 -6"), Vector{});  // along a periodic axis
+  EXPECT_NE(left_out.find("[0.5, 0, -1.5], along x too"), std::string::npos) << left_out;
   EXPECT_EQ(gravity("pp pp pp", "0 0 -3", "0 0 -6"), Vector{});
+  EXPECT_NE(left_out.find("[0, 0, -1.5], along z too"), std::string::npos) << left_out;
 }
 
 // Along an axis with walls, the box begins at 0.

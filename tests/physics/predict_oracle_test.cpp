@@ -28,7 +28,7 @@ namespace {
 
 constexpr std::uint64_t seed = 20240611;
 constexpr int thin = test::by_build(1, 50);
-constexpr std::size_t thermal_count = 100000 / thin, hard_count = 10000 / thin;
+constexpr std::size_t thermal_count = 60000 / thin, hard_count = 6000 / thin;
 constexpr std::size_t symmetry_count = 2000 / thin, unequal_count = 2000 / thin;
 constexpr int most_complaints = 3;
 

@@ -101,11 +101,19 @@ class Gravity {
       is_same_ &= std::abs(acceleration[axis] - (*first_)[axis]) <= 1e-5 * size;
     }
   }
-  /// Along axes with walls, where gravity is known; else none.
-  std::array<double, 3> along_walls(const std::array<bool, 3>& periodic) const {
+  /// Along axes with walls. What acts along a periodic axis too needs thermal walls, of which a
+  /// dump does not say that they are: it is left out, with a note.
+  std::array<double, 3> along_walls(const std::array<bool, 3>& periodic,
+                                    std::vector<std::string>& notes) const {
     if (!first_ || !is_same_) return {};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (periodic[axis] && (*first_)[axis] != 0) return {};
+      if (!periodic[axis] || (*first_)[axis] == 0) continue;
+      notes.push_back(
+          fmt::format("its forces accelerate all needles by [{}], along {} too, which is periodic: "
+                      "they are left "
+                      "out; beside thermal walls, forces.gravity in the scene says them",
+                      fmt::join(*first_, ", "), "xyz"[axis]));
+      return {};
     }
     return *first_;
   }
@@ -347,7 +355,8 @@ Configuration read_lammps_dump(const std::string& path, std::optional<std::size_
     if (!lines.is_blank()) lines.reject(fmt::format("expected no line after {} atoms", count));
   }
   needles.finish(path);
-  configuration.material.gravity = gravity.along_walls(configuration.state.periodic);
+  configuration.material.gravity =
+      gravity.along_walls(configuration.state.periodic, configuration.notes);
   return configuration;
 }
 
