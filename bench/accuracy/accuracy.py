@@ -8,7 +8,7 @@
 
 Parts: pairs (first contacts against the oracle), cost, audit, long-audit, drift,
 long-drift, return, parting, rates, tc.
-docs/accuracy.md says what each measures. Writes accuracy.md, accuracy.svg, tc.svg and the compact
+README.md says what each measures. Writes accuracy.md, accuracy.svg, tc.svg and the compact
 accuracy.json to bench/results/MACHINE-ISA/ when all parts are complete, of one commit and of
 the same build; until then to study/results/ in the folder of the build. Needs a build with
 NEEDLEWORK_BENCH=ON and tests.

@@ -73,16 +73,9 @@ def summary(data, names):
     return lines
 
 
-# Lines of the table in docs/accuracy.md, and what they are.
-BRIEF = {
-    "fast": "double decides everything",
-    "standard": "error bounds; double-double where they leave a decision open",
-    "rigorous": "interval arithmetic, times to half a unit in the last place; float for bounding volumes only",
-    "rigorous, filter float": "the same, behind filters in float",
-    "sampling 1/4": "signs at equal steps, coarse steps",
-    "sampling 1/32": "signs at equal steps, fine steps",
-    "root 1e-3": "contact times to a coarse tolerance",
-}
+# Lines of the table in docs/accuracy.md.
+BRIEF = ["fast", "standard", "rigorous", "rigorous, filter float", "sampling 1/4", "sampling 1/32",
+         "root 1e-3"]
 
 
 def brief(data):
@@ -91,9 +84,9 @@ def brief(data):
     audit = by(data["audit"]["results"], "gas", "accuracy")
     pairs = data["pairs"]["results"]
     families = hard_families(pairs)
-    lines = head("accuracy", "what it is", "dilute", "dense", "wrong, of 1e6 thermal pairs",
+    lines = head("accuracy", "dilute", "dense", "wrong, of 1e6 thermal pairs",
                  "wrong, of 1e6 hard pairs", "99 % of times within", "missed in runs")
-    for name, what in BRIEF.items():
+    for name in BRIEF:
         us = [spread(cost[gas, name]["us_per_collision"]) for gas in ("dilute", "dense")]
         of_pairs = "rigorous" if name.startswith("rigorous") else name
         found = {f: by(p["results"], "accuracy")[of_pairs,] for f, p in pairs.items()}
@@ -104,7 +97,7 @@ def brief(data):
         both = [audit[gas, name] for gas in ("dilute", "dense")]
         missed = f"{sum(a['missed'] for a in both)} of {sum(a['collisions'] for a in both)}"
         label = f"`{name}`" if name in ("fast", "standard", "rigorous") else name
-        lines.append(row(label, what, *us, *[number(w) for w in wrong],
+        lines.append(row(label, *us, *[number(w) for w in wrong],
                          number(thermal["time_error"]["q99"]), missed))
     return lines
 
@@ -251,7 +244,7 @@ TABLES = [
 
 def write(data, settings, folder):
     lines = ["# What accuracy costs in time", "",
-             "Made by `bench/accuracy/accuracy.py`; docs/accuracy.md says what is measured. "
+             "Made by `bench/accuracy/accuracy.py`; bench/accuracy/README.md says what is measured. "
              "A time is the median of interleaved repetitions, with their range in parentheses.", ""]
     if {"cost", "audit", "pairs"} <= data.keys():
         lines += ["![cost against error](accuracy.svg)", "", measured.origin(data["cost"]), "",

@@ -69,7 +69,11 @@ def tables_without_head(path):
 
 
 # A test by its name, such as `ResumeCommand` or `resume.20_kills`; not `output.file`.
-TEST = re.compile(r"`((?:[A-Z][a-z]+)+|(?:cli|python|resume)\.\w+)`")
+TEST = re.compile(r"`((?:[A-Z][a-z]+)+|(?:cli|python|resume|slow)\.\w+)`")
+# One of the tests of a case, by how its name begins: `Collapse.StruckBy`; or a family of pairs.
+BEGINNING = re.compile(r"`([A-Z]\w+(?:\.\w+)?)`")
+FAMILY = re.compile(r"`([a-z][a-z-]+)`")
+PAGES_OF_TESTS = ["docs/reliability.md", "docs/accuracy.md", "src/audit/README.md"]
 
 
 def tests():
@@ -77,10 +81,24 @@ def tests():
     a variable."""
     folder = ROOT / "tests"
     suites = {suite for path in folder.rglob("*.cpp")
-              for suite in re.findall(r"^TEST(?:_F|_P)?\((\w+),", path.read_text(), re.M)}
-    scripts = re.findall(r"script_test\((\w+\.\S+)", (folder / "CMakeLists.txt").read_text())
+              for suite in re.findall(r"^(?:TYPED_)?TEST(?:_F|_P)?\((\w+),", path.read_text(), re.M)}
+    scripts = re.findall(r"script_test\((\w+\.\S+)",
+                         "".join((ROOT / f / "CMakeLists.txt").read_text() for f in ["tests", "bench"]))
     python = {f"python.{path.stem.removeprefix('test_')}" for path in folder.glob("python/test_*.py")}
     return suites | python | {re.sub(r"\$\{\w+\}", r"\\w+", name) for name in scripts}
+
+
+def tests_in_full():
+    """Such as Collapse.StruckByAThirdNeedleStaysOnItsSide."""
+    return {f"{suite}.{name}" for path in (ROOT / "tests").rglob("*.cpp")
+            for suite, name in re.findall(r"^(?:TYPED_)?TEST(?:_F|_P)?\((\w+),\s*(\w+)", path.read_text(),
+                                          re.M)}
+
+
+def hard_cases():
+    """The rows of all tables of the page, each a list of its cells; without their heads."""
+    rows = re.findall(r"^\| (?!case \|)(.*) \|$", (ROOT / "docs/hard-cases.md").read_text(), re.M)
+    return [re.split(r" (?<!\\)\| ", row) for row in rows]
 
 
 class Documents(unittest.TestCase):
@@ -91,10 +109,28 @@ class Documents(unittest.TestCase):
         self.assertEqual([file for path in documents() for file in missing_files(path)], [])
 
     def test_tests_that_are_named_exist(self):
-        named = TEST.findall((ROOT / "docs/reliability.md").read_text())
-        self.assertGreater(len(named), 20)
+        named = [name for page in PAGES_OF_TESTS for name in TEST.findall((ROOT / page).read_text())]
+        self.assertGreater(len(named), 60)
         there = re.compile("|".join(tests()))
         self.assertEqual([name for name in named if not there.fullmatch(name)], [])
+
+    def test_every_hard_case_has_a_test(self):
+        names = sorted(tests_in_full())
+        families = re.findall(r'^ +{"([a-z0-9-]+)", \w+, \w+, draw_',
+                              (ROOT / "tests/support/pair_families.cpp").read_text(), re.M)
+        self.assertGreater(len(families), 10)
+        for case in hard_cases():
+            named = BEGINNING.findall(case[-1])
+            drawn = FAMILY.findall(case[-1])
+            self.assertTrue(named or drawn, case)
+            for begin in named:
+                self.assertTrue(any(name.startswith(begin) for name in names), begin)
+            self.assertEqual([family for family in drawn if family not in families], [])
+
+    def test_hard_cases_are_as_many_as_is_said(self):
+        for page in ("docs/hard-cases.md", "docs/accuracy.md"):
+            said = re.search(r"\b(\d+) cases, (?:each )?with a test", (ROOT / page).read_text())
+            self.assertEqual(int(said[1]), len(hard_cases()), page)
 
     def test_documents_are_listed_in_their_index(self):
         index = (ROOT / "docs/README.md").read_text()
