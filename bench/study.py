@@ -189,9 +189,10 @@ def mixture_table(content):
         lengths, share = mixture.split(",")
         return f"{lengths}, {'half of all' if share == '50%' else f'{share[:-1]} % of all'}"
 
-    return MIXTURES + table(["long needles", *(density.replace("n=", "n ⟨L⟩³ = ") for density in densities)],
-                            [[words(mixture), *cells(mixture)] for mixture in mixtures]
-                            ) + "\n" + case_table(content)
+    heads = [density.replace("n=", "n ⟨L⟩³ = ") for density in densities]
+    relative = table(["long needles", *heads],
+                     [[words(mixture), *cells(mixture)] for mixture in mixtures])
+    return MIXTURES + relative + "\n" + case_table(content)
 
 
 def kernel_table(content):

@@ -17,8 +17,8 @@ import statistics
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
+from time import gmtime, strftime
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -278,7 +278,7 @@ def origin(dynarun, variants):
     peers = [f"DynamO {version_of(dynarun)}"] if dynarun else []
     peers += [f"{name} {version_of(md)}" for name, md in variants.items()]
     return (f"`bench/peers/cross_check.py`: Needlework at commit {measured.commit()}, "
-            f"{', '.join(peers)}; {time.strftime('%Y-%m-%d', time.gmtime())}. "
+            f"{', '.join(peers)}; {strftime('%Y-%m-%d', gmtime())}. "
             "bench/peers/README.md says what is checked.\n\n")
 
 
