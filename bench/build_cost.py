@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """How many event loops are compiled, how large they and the program are, and how long the compiler
-takes: a table of docs/performance.md.
+takes: bench/results/build.md.
 
     bench/build_cost.py                  about three minutes on two quiet cores
-    bench/build_cost.py --dry            prints the table, changes no document
+    bench/build_cost.py --dry            prints the table, changes no file
 
 Builds the program once more, without tests and benchmarks and without a compiler cache, in a temporary
 folder. Times are of a core, and those of all processes together.
@@ -19,7 +19,7 @@ from pathlib import Path
 
 import measured
 from instructions import build_of
-from readme import put_table
+from readme import put_result
 
 LOOPS = r"needlework::((?:Event|Parallel)Loop<.*?>)::advance"
 
@@ -51,7 +51,7 @@ def main():
     parser.add_argument("--program", type=Path, metavar="FILE",
                         default=measured.ROOT / "build/release/needlework",
                         help="names the compiler and its flags")
-    parser.add_argument("--dry", action="store_true", help="change no document")
+    parser.add_argument("--dry", action="store_true", help="change no file")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         build = Path(name)
@@ -78,7 +78,7 @@ def main():
             f"{about['flags']}.\n\n") + measured.table(["what", "how much"], rows)
     print(text)
     if not arguments.dry:
-        put_table("build", text, "performance.md")
+        put_result("build.md", "What is compiled, and what that takes", text)
 
 
 if __name__ == "__main__":

@@ -3,9 +3,10 @@
 
 guard    compares the engine with the committed figures of instructions.json and fails when one has
          grown by more than 3 %; --update replaces them.
-effects  counts what each effect costs when it is on; the table goes to results/effects.md and to
-         docs/performance.md.
-shares   lists which part of the program a collision's instructions are spent in; the table goes to docs/performance.md.
+effects  counts what each effect costs when it is on; the table goes to results/effects.md, and what
+         matters to users to docs/performance.md.
+shares   lists which part of the program a collision's instructions are spent in; the table goes to
+         results/shares.md.
 baseline counts the classical method with several sides of its cells, to see that its own is good.
 
 A figure is the difference between a long and a short run of one trajectory, over the collisions
@@ -25,7 +26,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import measured
-from readme import put_table
+from readme import put_result, put_table
 
 BENCH = Path(__file__).resolve().parent
 COMMITTED = BENCH / "instructions.json"
@@ -298,9 +299,23 @@ def effects(program, out, only):
     out.parent.mkdir(parents=True, exist_ok=True)
     out.write_text(text)
     if out == EFFECTS_TABLE:
-        put_table("effects", text, "performance.md")
+        put_table("effects", brief_effects(text), "performance.md")
     print(text, end="")
     return 0
+
+
+def brief_effects(text):
+    """What a collision with an effect costs more, in action where that is another trajectory, and
+    bytes per needle, from the whole table."""
+    rows = []
+    for line in text.splitlines():
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        if len(cells) != 7 or not cells[1].isdigit():
+            continue
+        name, off, on, _, acting, _, held = cells
+        price = 100 * (float(acting or on.rstrip(" *")) / float(off) - 1)
+        rows.append([name, f"{round(price):+d} %", held])
+    return measured.table(["effect", "instructions per collision", "bytes per needle"], rows)
 
 
 def shares(program):
@@ -333,9 +348,9 @@ def shares(program):
             f"{NEEDLES} needles, {isa}; {build['compiler']}, {build['flags']}.\n\n"
             + "\n".join(lines) + "\n")
     if COMMITTED.exists() and json.loads(COMMITTED.read_text())["build"] == build:
-        put_table("shares", text, "performance.md")
+        put_result("shares.md", "Where the instructions of a collision go", text)
     else:
-        print("Not put into docs/performance.md: its table is of another compiler or flags.\n")
+        print("Not put into results/shares.md: its table is of another compiler or flags.\n")
     print(text, end="")
     return 0
 

@@ -91,6 +91,24 @@ def cores():
     return len(os.sched_getaffinity(0))
 
 
+def processor(cpuinfo="/proc/cpuinfo"):
+    """What this machine says of its first core: name, family, model and clock. Names of virtual
+    machines stand for many processors, which family and model tell apart; the clock is the present
+    one where it changes. Empty if nothing is said."""
+    try:
+        text = Path(cpuinfo).read_text().split("\n\n")[0]
+    except OSError:
+        return ""
+    said = dict(re.findall(r"^([^\t:]+?)\s*: (.*)$", text, re.M))
+    if "model name" not in said:
+        return ""
+    words = [said["model name"]]
+    words += [f"{key} {said[key]}" for key in ("cpu family", "model") if key in said]
+    if "cpu MHz" in said:
+        words.append(f"{float(said['cpu MHz']) / 1000:.2f} GHz")
+    return ", ".join(words)
+
+
 def machine_name(build):
     version = output_of([str(build / "needlework"), "--version"])
     widest = re.search(r"^ISA +(.*)$", version, re.M)[1].split()[-1]
@@ -120,8 +138,8 @@ class Store:
 
     def save(self, part, content):
         self.folder.mkdir(parents=True, exist_ok=True)
-        content = {**self.about, "date": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()),
-                   **content}
+        content = {**self.about, "processor": processor(),
+                   "date": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()), **content}
         fresh = self.folder / f"{part}.new"
         fresh.write_text(json.dumps(content) + "\n")
         fresh.replace(self.folder / f"{part}.json")
@@ -263,7 +281,8 @@ def origin(content):
     figures = (f"median (range) of {rounds} interleaved repetitions" if rounds > 1 else
                "one repetition")
     return (f"`{content['command']}`, {figures}; commit {content['commit']}, "
-            f"{content['date'][:10]}; {content['machine']}, {content['cores']} cores; "
+            f"{content['date'][:10]}; {content.get('processor') or content['machine']}, "
+            f"{content['cores']} cores; "
             f"{content['compiler']}, {content['flags']}.")
 
 

@@ -9,7 +9,8 @@ Build first, with NEEDLEWORK_BENCH=ON, from a commit without changes. Repetition
 interleaved. When all are complete, tables, pictures and compact files replace those of this machine in
 bench/results/MACHINE-ISA/, and the tables between comments in docs/performance.md, and words of the
 README, are written again; until then they are in study/results/ in the folder of the build, and the
-documents stay as they are.
+documents stay as they are. What the document has no place for, such as instruction sets, mixtures and
+busy machines, is in bench/results alone.
 Instructions per collision, which do not depend on the machine, are counted last, after the time budget;
 `--no-instructions` leaves them out.
 """
@@ -82,14 +83,6 @@ def step_table(content):
     return table(["scene", "setting", "cost", "times faster"], rows)
 
 
-def isa_table(content):
-    scenes = study.baselines_first(content)
-    isas = [case["name"].split("/")[4] for case in next(iter(scenes.values()))[1:]]
-    rows = [[isa, *(cost(cases[1 + place]) for cases in scenes.values())]
-            for place, isa in enumerate(isas)]
-    return table(["instruction set", *scenes], rows)
-
-
 def size_table(content):
     rows, cost_of = [], {}
     for cases in study.by_scene(content).values():
@@ -102,43 +95,6 @@ def size_table(content):
         ratio = spread(quotients(cost_of[1000000, "0.72"], cost_of[10000, "0.72"]))
         text += f"\nA million dilute needles cost {ratio} times as much per collision as ten thousand.\n"
     return text
-
-
-def cloud_text(content):
-    (baseline, _, auto), = study.baselines_first(content).values()
-    return (f"Needles that fill only a part of their box are treated by the density around them: "
-            f"{auto['needles']} needles at 37 per L³ in a corner of a large box take {cost(auto)}, "
-            f"{study.times(auto, baseline)} times less than by the classical method "
-            f"(`needlework bench cloud`).\n")
-
-
-def mixture_table(content):
-    """Needles of two lengths over those of one length that collide as often, as `auto` has them, and
-    what one grid for all of them takes of that."""
-    cost_of, densities, mixtures = {}, [], []
-    for scene, (one_grid, auto) in study.baselines_first(content).items():
-        density, mixture = scene.split(",", 1)
-        cost_of[mixture, density] = auto["us_per_collision"], one_grid["us_per_collision"]
-        densities += [density] if density not in densities else []
-        mixtures += [mixture] if mixture not in mixtures else []
-    of_one_length = mixtures.pop(0)
-
-    def cells(mixture):
-        for density in densities:
-            if (mixture, density) not in cost_of:
-                yield "the box is too small"
-                continue
-            auto, one_grid = cost_of[mixture, density]
-            alone, _ = cost_of[of_one_length, density]
-            over = statistics.median(quotients(one_grid, auto))
-            yield f"{spread(quotients(auto, alone))}; {over:.2f}"
-
-    def words(mixture):
-        lengths, share = mixture.split(",")
-        return f"{lengths}, {'half of all' if share == '50%' else f'{share[:-1]} % of all'}"
-
-    return table(["long needles", *(density.replace("n=", "n ⟨L⟩³ = ") for density in densities)],
-                 [[words(mixture), *cells(mixture)] for mixture in mixtures])
 
 
 def thread_table(contents):
@@ -158,35 +114,15 @@ def thread_table(contents):
                   "share of what separate runs reach"], rows)
 
 
-def busy_table(contents):
-    """Wall time of as many threads as cores, over that of one, beside the same programs."""
-    rows = []
-    for name in scaling.CROWDED:
-        if name not in contents:
-            continue
-        gains = scaling.speed_ups(contents[name])
-        counts = sorted({int(threads.split(":")[1]) for kind, threads in gains if "beside" in kind})
-        cores = counts[1]  # one, as many as cores, four for each core
-        rows.append([name, *(f"{1 / statistics.median(gains[f'beside-{n}', f'threads:{cores}']):.2f}"
-                             for n in scaling.LOADS)])
-    return table(["scene", *(f"{n} busy program{'s' if n > 1 else ''}" for n in scaling.LOADS)], rows)
-
-
 def blocks(contents, threads):
     """What stands between comments in the document, by name."""
     out = {}
     for part, name, make in (("density", "classical", classical_table), ("steps", "steps", step_table),
-                             ("isa", "isa", isa_table), ("size", "size", size_table),
-                             ("mixtures", "mixtures", mixture_table),
-                             ("cloud", "cloud", cloud_text)):
+                             ("size", "size", size_table)):
         if part in contents:
-            text = make(contents[part])
-            out[name] = text if part == "cloud" else origin_line(contents[part]) + text
+            out[name] = origin_line(contents[part]) + make(contents[part])
     if threads:
-        origin = origin_line(list(threads.values())[-1])
-        out["threads"] = origin + thread_table(threads)
-        if scaling.CROWDED[0] in threads:
-            out["busy"] = busy_table(threads)
+        out["threads"] = origin_line(list(threads.values())[-1]) + thread_table(threads)
     return out
 
 

@@ -28,6 +28,12 @@ def put_table(name, text, document):
     path.write_text(new)
 
 
+def put_result(name, title, text):
+    """A table of its own, of what does not depend on the machine or is of one machine only."""
+    RESULTS.mkdir(parents=True, exist_ok=True)
+    (RESULTS / name).write_text(f"# {title}\n\n{text.strip()}\n")
+
+
 def lead_links_to(machine):
     """Of all documents outside of bench/results, lets links to a file of results lead to that of the
     same name of this machine, where there is one."""

@@ -26,6 +26,9 @@ SCENES = {"steps": 7, "searches": 7, "queues": 7, "isa": 7, "density": 7, "size"
           "hulls": 5, "cloud": 7, "mixtures": 5, "effects": 7, "matrix": 3}
 # Parts that have an executable of their own, with Google Benchmark.
 ALONE = {"kernels": 7, "calendars": 5}
+MIXTURES = ("Needles of length 1 and longer ones, over needles of one length that collide as often, as "
+            "many per cube of the mean length ⟨L⟩: CPU time per collision; behind the semicolon, what "
+            "one grid for all needles takes, as `cell_side` or `capsule_radius` have it, over that.\n\n")
 PROGRAM_OF = {"kernels": "bench_kernels", "calendars": "bench_queues"}
 
 
@@ -161,6 +164,37 @@ def matrix_table(content):
                   "tournament, speed-up"], rows)
 
 
+def mixture_table(content):
+    """Needles of two lengths over those of one length that collide as often, as `auto` has them, and
+    what one grid for all of them takes of that; then all cases."""
+    cost_of, densities, mixtures = {}, [], []
+    for scene, (one_grid, auto) in baselines_first(content).items():
+        density, mixture = scene.split(",", 1)
+        cost_of[mixture, density] = auto["us_per_collision"], one_grid["us_per_collision"]
+        densities += [density] if density not in densities else []
+        mixtures += [mixture] if mixture not in mixtures else []
+    of_one_length = mixtures.pop(0)
+
+    def cells(mixture):
+        for density in densities:
+            if (mixture, density) not in cost_of:
+                yield "the box is too small"
+                continue
+            auto, one_grid = cost_of[mixture, density]
+            alone, _ = cost_of[of_one_length, density]
+            over = statistics.median(quotients(one_grid, auto))
+            yield f"{spread(quotients(auto, alone))}; {over:.2f}"
+
+    def words(mixture):
+        lengths, share = mixture.split(",")
+        return f"{lengths}, {'half of all' if share == '50%' else f'{share[:-1]} % of all'}"
+
+    heads = [density.replace("n=", "n ⟨L⟩³ = ") for density in densities]
+    relative = table(["long needles", *heads],
+                     [[words(mixture), *cells(mixture)] for mixture in mixtures])
+    return MIXTURES + relative + "\n" + case_table(content)
+
+
 def kernel_table(content):
     found = {case["name"]: case for case in content["cases"]}
     by_isa = [name for name in found if name.count("/") == 2]
@@ -197,7 +231,7 @@ SECTIONS = {  # part: title, what makes its table
     "storage": ("Storage by place or by id", case_table),
     "hulls": ("Sides of cells and radii of capsules: us per collision", volume_size_table),
     "cloud": ("A cloud: cells for the whole box, and as chosen", case_table),
-    "mixtures": ("Mixtures: in one grid, and as chosen", case_table),
+    "mixtures": ("Mixtures: in one grid, and as chosen", mixture_table),
     "queues": ("Calendars", case_table),
     "isa": ("Instruction sets", case_table),
     "effects": ("Effects", case_table),

@@ -18,17 +18,19 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from time import gmtime, strftime
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import measured  # noqa: E402
-from engines import Dynamo, Edmd, Needlework, Run, write_spheres  # noqa: E402
+from engines import Dynamo, Edmd, Needlework, Run, version_of, write_spheres  # noqa: E402
 from peers import add_options, find_programs  # noqa: E402
-from readme import put_table  # noqa: E402
+from readme import put_result  # noqa: E402
 
 # DynamO prints times with four decimals. Slower by this power of two, which changes no digit of a
 # trajectory, they have six more.
 SLOWER = 2.0**-20
+TITLE = "Whether other engines do the same"
 LIMIT_S = 10  # for a small input, which takes milliseconds
 TOLERANCE = 1e-7  # of times of first collisions, in L sqrt(m/T)
 ERRORS = 3  # by how many standard errors means of long runs may differ
@@ -271,6 +273,15 @@ def small_inputs(program, dynarun, folder):
     return rows, right
 
 
+def origin(dynarun, variants):
+    """What was compared, and when."""
+    peers = [f"DynamO {version_of(dynarun)}"] if dynarun else []
+    peers += [f"{name} {version_of(md)}" for name, md in variants.items()]
+    return (f"`bench/peers/cross_check.py`: Needlework at commit {measured.commit()}, "
+            f"{', '.join(peers)}; {strftime('%Y-%m-%d', gmtime())}. "
+            "bench/peers/README.md says what is checked.\n\n")
+
+
 def main():
     names = [*FIRST, *LONG, "small"]
     parser = argparse.ArgumentParser(description=__doc__,
@@ -281,7 +292,7 @@ def main():
     parser.add_argument("--events", type=int, default=100, help="first ones to compare")
     parser.add_argument("--blocks", type=int, default=20, help="of a long run, for its errors")
     parser.add_argument("--document", action="store_true",
-                        help="put the table into docs/performance.md, too")
+                        help="put the table into bench/results/cross-check.md, too")
     arguments = parser.parse_args()
     program, dynarun, variants = find_programs(parser, arguments)
     if arguments.events < 1:
@@ -308,7 +319,7 @@ def main():
     text = measured.table(["case", "what", "found", "difference", "verdict"], rows)
     print(text, end="")
     if arguments.document and agree:
-        put_table("cross-check", text, "performance.md")
+        put_result("cross-check.md", TITLE, origin(dynarun, variants) + text)
     sys.exit(0 if agree else 1)
 
 

@@ -26,7 +26,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import measured  # noqa: E402
 import versus  # noqa: E402
 from engines import Dynamo, Edmd, Needlework, Run, find_program, version_of, write_spheres  # noqa: E402
-from readme import put_table  # noqa: E402
+from readme import RESULTS, put_table  # noqa: E402
 from scenes import all_scenes  # noqa: E402
 
 TITLE = "# Beside other engines"
@@ -123,13 +123,27 @@ def report(compared, about, repetitions):
     origin = (f"`bench/peers/peers.py`: medians of {repetitions} interleaved repetitions, with an "
               "interval that holds the true median in 95 of 100 cases or more. Rates are "
               "collisions of a particle in a unit of time. Needlework at commit "
-              f"{about['commit']}, {about['compiler']}, {about['flags']}; {about['machine']}, "
+              f"{about['commit']}, {about['compiler']}, {about['flags']}; "
+              f"{measured.processor() or about['machine']}, "
               f"{about['cores']} cores, each engine on one thread; "
               f"{time.strftime('%Y-%m-%d', time.gmtime())}.")
     header = ["scene", "engine", "version", "collisions", "rate", "CPU us per collision",
               "wall us per collision", "CPU theirs / ours"]
     parts = [TITLE, origin, measured.table(header, rows).rstrip(), *notes]
     return "\n\n".join(parts) + "\n", agree
+
+
+def brief(compared):
+    """For readers of docs/performance.md: CPU time of ours, and how many times that others take."""
+    engines = list(dict.fromkeys(side.engine for _, _, (_, *others) in compared for side in others))
+    rows = []
+    for name, _, (ours, *others) in compared:
+        found = {side.engine: measured.quotients(side.cpu, ours.cpu) for side in others}
+        rows.append([name, measured.number(statistics.median(ours.cpu)),
+                     *(measured.number(statistics.median(found[engine])) if engine in found else ""
+                       for engine in engines)])
+    return measured.table(["scene", "Needlework, µs", *(f"{engine}, times that" for engine in engines)],
+                          rows)
 
 
 def how_to_get_peers():
@@ -180,7 +194,8 @@ def main():
     parser.add_argument("--repetitions", type=int, default=10)
     parser.add_argument("--out", type=Path, metavar="FILE", help="instead of the standard output")
     parser.add_argument("--document", action="store_true",
-                        help="put the table into docs/performance.md, too")
+                        help="put the table into bench/results/MACHINE-ISA/peers.md, and its quotients "
+                             "into docs/performance.md, too")
     arguments = parser.parse_args()
     program, dynarun, variants = find_programs(parser, arguments)
     of_edmd = [name for name, scene in scenes.items() if scene.spheres and not scene.falling]
@@ -218,7 +233,10 @@ def main():
     if not arguments.out:
         print(text, end="")
     if arguments.document and agree:
-        put_table("peers", text.removeprefix(f"{TITLE}\n\n"), "performance.md")
+        place = RESULTS / measured.machine_name(program.parent)
+        place.mkdir(parents=True, exist_ok=True)
+        (place / "peers.md").write_text(text)
+        put_table("peers", brief(compared), "performance.md")
     sys.exit(0 if agree else 1)
 
 

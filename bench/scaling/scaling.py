@@ -50,6 +50,15 @@ STRONG = {
 WEAK = {"weak": (100000, DILUTE, 4)}  # needles for each thread
 CROWDED = ["dilute", "dense"]
 LOADS = [1, 2, 4]  # programs beside the crowded scenes
+COLUMNS = (
+    "\nSpeed-up: over the best setting for one thread. Of runs apart: compared with as many separate "
+    "runs at the same time as there are threads. Border try: an attempt at an event that has to "
+    "compare times with other threads and lock cells. Turn: a sequence of events until the thread is "
+    "blocked. Time blocked: a share of the time of all threads. Phases undone: stretches that one "
+    "thread had to repeat. Cache line: how long one takes from one core to another (`bench_scaling`), "
+    "measured before each run of several threads without other programs; a virtual machine whose "
+    "cores are moved changes it. *weak* has 100000 needles for each thread, *ensemble* as many runs "
+    "of 2000 needles as threads.\n")
 ENSEMBLE = {"ensemble": (2000, 14.0, 40)}  # each member
 SCENES = STRONG | WEAK | ENSEMBLE
 GRID = """scene = "member.toml"
@@ -228,6 +237,27 @@ def table(contents):
                            "events per turn", "time blocked", "phases undone", "cache line"], rows)
 
 
+def busy_table(contents):
+    """Wall time of as many threads as cores, over that of one, beside the same programs that never
+    rest; empty if that was not measured."""
+    rows = []
+    for name in CROWDED:
+        if name not in contents:
+            continue
+        gains = speed_ups(contents[name])
+        counts = sorted({int(threads.split(":")[1]) for kind, threads in gains if "beside" in kind})
+        if not counts:
+            continue
+        cores = counts[1]  # one, as many as cores, four for each core
+        rows.append([name, *(f"{1 / statistics.median(gains[f'beside-{n}', f'threads:{cores}']):.2f}"
+                             for n in LOADS)])
+    if not rows:
+        return ""
+    return ("\n## Beside busy programs\n\nWall time of as many threads as cores, over that of one "
+            "thread beside the same programs, which never rest.\n\n" + measured.table(
+                ["scene", *(f"{n} busy program{'s' if n > 1 else ''}" for n in LOADS)], rows))
+
+
 def model(contents):
     """What a collision costs more than in runs apart, as a line over border tries per event."""
     tries, costs, most = [], [], 0
@@ -272,8 +302,8 @@ def write_results(contents, folder):
     last = list(contents.values())[-1]
     (folder / "scaling.md").write_text(
         "# Threads\n\n"
-        "Made by `bench/scaling/scaling.py`; docs/performance.md says what the columns are.\n"
-        f"{measured.origin(last)}\n\n" + table(contents) + model(contents))
+        f"Made by `bench/scaling/scaling.py`.\n{measured.origin(last)}\n\n"
+        + table(contents) + COLUMNS + busy_table(contents) + model(contents))
     draw({name: {int(threads.split(":")[1]): gain
                  for (kind, threads), gain in speed_ups(content).items()
                  if kind in ("alone", "together")} for name, content in contents.items()},

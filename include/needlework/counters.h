@@ -22,7 +22,7 @@ struct Counters {
   std::uint64_t evaluated = 0;      ///< evaluations of the contact function in double
   std::uint64_t escalated = 0;      ///< evaluations of the contact function in double-double
   std::uint64_t touches = 0;        ///< touching third needles found when a record was replaced
-  // For several threads; see docs/parallel.md.
+  // For several threads; see docs/json.md.
   std::uint64_t phases = 0;    ///< stretches of time between two meetings of all threads
   std::uint64_t redone = 0;    ///< phases that one thread had to repeat
   std::uint64_t alone = 0;     ///< collisions that one thread processed while the others rested

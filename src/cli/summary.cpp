@@ -250,7 +250,7 @@ std::string rate_line(const Report& report) {
               exact, rate / exact, error / exact);
 }
 
-// How several threads shared the work; see docs/how-it-works.md.
+// How several threads shared the work; see docs/parallel.md.
 std::string thread_line(const Report& report) {
   const std::string text = runs::threads_text(report.scene);
   const int threads = report.scene.engine.threads.value_or(1);

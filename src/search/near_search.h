@@ -10,7 +10,7 @@
 //                 needle are nearly all that it can meet
 //
 // Spheres stay in their capsules, which are balls, through collisions, and keep lists of those
-// whose balls overlap. Needles would leave theirs too soon (docs/experiments.md).
+// whose balls overlap. Needles would leave theirs too soon (bench/experiments.md).
 #pragma once
 
 #include <memory>

@@ -27,6 +27,7 @@ BENCH = Path(__file__).resolve().parents[2] / "bench"
 sys.path[:0] = [str(BENCH / "peers"), str(BENCH)]
 import cross_check  # noqa: E402
 import measured  # noqa: E402
+import readme  # noqa: E402
 import scenes  # noqa: E402
 import versus  # noqa: E402
 
@@ -125,6 +126,20 @@ class Peers(WithStandIns):
             return "ours run least" if "per_needle=0.001" in call else call[:8]
 
         self.assertEqual([short(call) for call in calls[begin:begin + 24]], expected)
+
+    def test_all_goes_to_results_and_quotients_into_a_document(self):
+        document = self.folder / "performance.md"
+        document.write_text("<!-- peers -->\n<!-- end of peers -->\n")
+        with mock.patch.object(readme, "DOCS", self.folder), \
+                mock.patch.object(readme, "RESULTS", self.folder / "results"), \
+                mock.patch.object(measured, "machine_name", lambda build: "m"):
+            code, table = self.run_script("--dynamo", self.folder / "dynamo", "--scene", "dilute",
+                                          "--document")
+        self.assertEqual(code, 0, table)
+        self.assertEqual((self.folder / "results/m/peers.md").read_text(), table)
+        brief = document.read_text()
+        self.assertIn("| scene | Needlework, µs | DynamO, times that |", brief)
+        self.assertRegex(brief, r"\n\| dilute \| [\d.]+ \| [\d.]+ \|\n")
 
     def test_spheres_start_from_one_state_in_all_engines_and_variants(self):
         executable(self.folder / "edmd/Multi/md", f'exec {sys.executable} -S -E {STAND_IN} md')

@@ -17,6 +17,7 @@ from xml.etree import ElementTree
 sys.dont_write_bytecode = True
 sys.path[:0] = [str(Path(__file__).resolve().parents[2] / "bench" / folder)
                 for folder in ("", "scaling")]
+import instructions  # noqa: E402
 import measured  # noqa: E402
 import performance  # noqa: E402
 import readme  # noqa: E402
@@ -219,7 +220,7 @@ class Performance(unittest.TestCase):
         cases = [one(f"n={n},{what}", words, [factor * t[k] for factor in (1, 2)], baseline=k == 0)
                  for n in ("0.1", "1") for what, t in times.items() if (n, what) != ("1", "1:4,1%")
                  for k, words in enumerate(("linked-cells auto avx2", "auto auto avx2"))]
-        text = performance.mixture_table(self.content(*cases))
+        text = study.mixture_table(self.content(*cases))
         self.assertIn("| long needles | n ⟨L⟩³ = 0.1 | n ⟨L⟩³ = 1 |", text)
         self.assertIn("| 1:4, half of all | 2.00 (2.00–2.00); 0.67 | 2.00 (2.00–2.00); 0.67 |", text)
         self.assertIn("| 1:4, 1 % of all | 1.50 (1.50–1.50); 2.67 | the box is too small |", text)
@@ -237,7 +238,7 @@ class Performance(unittest.TestCase):
     def test_have_a_place_in_the_document(self):
         document = (Path(performance.__file__).parents[1] / "docs/performance.md").read_text()
         blocks = performance.blocks(self.contents(), self.threads())
-        self.assertEqual(len(blocks), 7)
+        self.assertEqual(len(blocks), 4)
         for name in blocks:
             for mark in (f"<!-- {name} -->", f"<!-- end of {name} -->"):
                 self.assertEqual(document.count(mark), 1, mark)
@@ -250,14 +251,35 @@ class Performance(unittest.TestCase):
         self.assertIn("varies by a factor of 1.00", blocks["classical"])
         self.assertIn("|  | + SIMD (avx2) | 8.00", blocks["steps"])
         self.assertIn("|  | + calendar `tournament` | 7.00", blocks["steps"])
-        self.assertIn("| avx2 | 7.00 (6.00–8.00) |", blocks["isa"])
         self.assertIn("| 500 | 0.021 s |", blocks["size"])
-        self.assertIn("4.50 (4.00–5.00) times less", blocks["cloud"])
         self.assertIn("| dilute | 10000 | 6.00 | 4.00 | 1.50 | 0.75 |", blocks["threads"])
-        self.assertIn("| dilute | 1.25 | 1.25 | 1.25 |", blocks["busy"])
+        self.assertIn("| dilute | 1.25 | 1.25 | 1.25 |", scaling.busy_table(self.threads()))
+
+    def test_of_effects_are_short_for_users(self):
+        whole = ("of 2000 needles\n\n| effect | off | on | costs | in action | two threads (5 without) "
+                 "| bytes per needle |\n|---|---|---|---|---|---|---|\n"
+                 "| kicks | 100 | 101 | +1.0 % | 350 | 7 | +0.6 |\n"
+                 "| walls | 100 | 108 * | +8.0 % |  | 7 | +13.8 |\n"
+                 "| rest | 1000 | 999 | -0.1 % |  |  |  |\n")
+        self.assertEqual(instructions.brief_effects(whole).splitlines()[2:], [
+            "| kicks | +250 % | +0.6 |", "| walls | +8 % | +13.8 |", "| rest | +0 % |  |"])
 
 
 class Scripts(unittest.TestCase):
+    def test_say_which_processor_and_at_which_clock(self):
+        with tempfile.TemporaryDirectory() as folder:
+            said = Path(folder) / "cpuinfo"
+            said.write_text("processor\t: 0\nvendor_id\t: A\ncpu family\t: 25\nmodel\t\t: 17\n"
+                            "model name\t: AMD EPYC\ncpu MHz\t\t: 2599.998\n\nprocessor\t: 1\n"
+                            "model name\t: other\n")
+            self.assertEqual(measured.processor(said), "AMD EPYC, cpu family 25, model 17, 2.60 GHz")
+            said.write_text("processor\t: 0\nBogoMIPS\t: 50.00\n")
+            self.assertEqual(measured.processor(said), "")
+            self.assertEqual(measured.processor(Path(folder) / "none"), "")
+        content = {**ABOUT, "date": "2026-01-01T", "command": "c", "rounds": 1}
+        self.assertIn("; m, 2 cores", measured.origin(content))
+        self.assertIn("; p, 3 GHz, 2 cores", measured.origin({**content, "processor": "p, 3 GHz"}))
+
     def test_work_outside_of_a_git_checkout(self):
         with tempfile.TemporaryDirectory() as folder:
             with mock.patch.object(measured, "ROOT", Path(folder).resolve()):
