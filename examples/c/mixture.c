@@ -18,12 +18,15 @@ int main(void) {
   for (size_t n = 0; code == NEEDLEWORK_OK && (name = needlework_species_name(gas, n)); ++n) {
     needlework_species species;
     code = needlework_get_species(gas, n, &species);
-    if (code == NEEDLEWORK_OK) printf("%s: T_tr %.3f, T_rot %.3f\n", name, species.t_tr, species.t_rot);
+    if (code == NEEDLEWORK_OK)
+      printf("%s: T_tr %.3f, T_rot %.3f\n", name, species.t_tr, species.t_rot);
   }
   needlework_species_pair pair;
   if (code == NEEDLEWORK_OK) code = needlework_get_species_pair(gas, 0, 1, &pair);
-  if (code == NEEDLEWORK_OK) printf("light with heavy: %llu\n", (unsigned long long)pair.collisions);
-  else fprintf(stderr, "%s\n", needlework_message(gas));
+  if (code == NEEDLEWORK_OK)
+    printf("light with heavy: %llu\n", (unsigned long long)pair.collisions);
+  else
+    fprintf(stderr, "%s\n", needlework_message(gas));
   needlework_destroy(gas);
   return code;
 }
