@@ -17,6 +17,21 @@ from pathlib import Path
 
 WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"]
 
+# What examples/c prints.
+EXAMPLES = {
+    "data": """\
+notes: {"lid": "open"}
+""",
+    "first_contact": """\
+time 1, 0.25 from the centre of the rod
+""",
+    "mixture": """\
+light: T_tr 0.456, T_rot 0.470
+heavy: T_tr 0.678, T_rot 0.570
+light with heavy: 2008
+""",
+}
+
 # What fortran/images.f90 prints: the first needle has left the box twice, once at either end.
 IMAGES = """\
 images of the first needle 8 -8 8
@@ -98,6 +113,9 @@ def in_c(installed, root):
     check("smallest.c", re.search(r", 10000 collisions, .*\nhash [0-9a-f]{32}\n$", out), out)
     out = installed.build_and_run(compiler, root / "examples/c/own_arrays.c")
     check("own_arrays.c", out.startswith("9/10 of the energy lost after "), out)
+    for name, expected in EXAMPLES.items():
+        out = installed.build_and_run(compiler, root / f"examples/c/{name}.c")
+        check(f"{name}.c", out == expected, out + "expected:\n" + expected)
 
     # What the guide shows, and what it says that it prints.
     text = (root / "docs/c.md").read_text()
