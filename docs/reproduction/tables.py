@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Writes the tables of ../reproduction.md, and of the pages of what goes beyond the paper, from
-claims-all.json, which `needlework reproduce all` has written. Each table stands in one of the
-documents, between <!-- table FIGURE --> and <!-- end -->.
+"""Writes the tables of claims/claims-all.json, which `needlework reproduce all` has written and
+judge.py judges again. A document keeps the table of a figure between <!-- table FIGURE --> and <!-- end -->;
+claims/README.md has those of all other figures. The table "paper" is the summary of its claims, and
+"verdicts" counts them.
 
-    tables.py           replaces the tables
+    tables.py           writes the tables
     tables.py --check   exit code 1 if they are others, or if a verdict does not follow from its numbers
 """
 
@@ -11,19 +12,35 @@ import json
 import math
 import re
 import sys
+from collections import Counter
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-DOCUMENTS = [HERE.parent / f"{name}.md" for name in (
-    "reproduction", "driven-gas", "vibrated-layer", "cooling-between-walls", "sedimentation", "rods",
-    "needle-liquid")]
-CLAIMS = HERE / "claims-all.json"
+FOLDER = HERE / "claims"
+CLAIMS = FOLDER / "claims-all.json"
+TABLES = FOLDER / "README.md"
+PAPER = ("2", "3", "4", "5a", "5b", "6", "7", "8", "fluctuations", "moment", "rotation",
+         "relaxation")
 TABLE = re.compile(r"(<!-- table (\S+) -->\n).*?(<!-- end -->)", re.S)
+HEAD = """# Claims and measurements
+
+Written by [tables.py](../tables.py) from [claims-all.json](claims-all.json). *Stated* is a number with its
+precision, with the reason of both in parentheses; *measured* a mean over so many seeds with its standard
+error; *99 %* half the width of its confidence interval. [Reproduction](../../reproduction.md#verdicts) says
+what a verdict means; without a stated number there is none.
+"""
+
+# Student's t within which so many percent lie, by the number of seeds: from tables, apart from the
+# program.
+STUDENT = {99: {2: 63.6567, 3: 9.92484, 4: 5.84091, 5: 4.60409, 6: 4.03214, 8: 3.49948, 10: 3.24984,
+                12: 3.10581, 16: 2.94671},
+           95: {2: 12.7062, 3: 4.30265, 4: 3.18245, 5: 2.77645, 6: 2.57058, 8: 2.36462, 10: 2.26216,
+                12: 2.20099, 16: 2.13145}}
 
 
 def number(value):
-    """In four digits, without an exponent where one can do without."""
-    return "–" if value is None else f"{value:.4g}".replace("-", "−")
+    """In five digits, without an exponent where one can do without."""
+    return "–" if value is None else f"{value:.5g}".replace("-", "−")
 
 
 def measured(row):
@@ -43,28 +60,87 @@ def stated(row):
     return number(row["paper"]) + ("" if precision is None else f" ± {number(precision)}")
 
 
-def verdict(row):
+def half_width(row, percent=99):
+    """Of the confidence interval; None without one."""
+    if row["seeds"] is None:
+        return 0
+    if row["seeds"] < 2 or row["error"] is None:
+        return None
+    return row["error"] * STUDENT[percent][row["seeds"]]
+
+
+def verdict(row, percent=99):
     """By the rule of the document, apart from the program's own."""
-    paper, precision, value, error = (row[k] for k in ("paper", "precision", "measured", "error"))
-    if None in (paper, precision, value, error) or error > precision:
+    half = half_width(row, percent)
+    if row["paper"] is None or row["measured"] is None or half is None:
         return "open"
-    if row["seeds"] is not None and row["seeds"] < 3:
-        return "open"
-    return "agrees" if abs(value - paper) <= 3 * error + precision else "differs"
+    low, high = row["measured"] - half, row["measured"] + half
+    least, most = row["paper"] - row["precision"], row["paper"] + row["precision"]
+    if least <= low and high <= most:
+        return "agrees"
+    return "differs" if high < least or low > most else "open"
+
+
+def shown(row):
+    """The verdict in words."""
+    if row["paper"] is None:
+        return "–"
+    return "undecided" if row["verdict"] == "open" else f"**{row['verdict']}**"
 
 
 def table(rows):
-    lines = ["| statement | of | stated | measured | seeds | verdict |", "|---|---|---|---|---|---|"]
+    """Claims that several variants measure stay together."""
+    claims = list(dict.fromkeys(row["claim"] for row in rows))
+    lines = ["| claim | of | stated | measured | 99 % | seeds | verdict |",
+             "|---|---|---|---|---|---|---|"]
     last = None
-    for row in rows:
-        statement = row["statement"] + " *" + row["quantity"] + "*"
+    for row in sorted(rows, key=lambda row: claims.index(row["claim"])):
+        claim = f"{row['statement']} *{row['quantity']}*"
         if row["reading"]:
-            statement += f" ({row['reading']})"
-        lines.append(" | ".join(["| " + (statement if row["claim"] != last else ""),
+            claim += f" ({row['reading']})"
+        half = half_width(row)
+        lines.append(" | ".join(["| " + (claim if row["claim"] != last else ""),
                                  row["variant"] or "", stated(row), measured(row),
+                                 f"{half:.2g}" if half else "–",
                                  "–" if row["seeds"] is None else str(row["seeds"]),
-                                 f"**{row['verdict']}** |"]))
+                                 f"{shown(row)} |"]))
         last = row["claim"]
+    return "\n".join(lines) + "\n"
+
+
+def summary(rows):
+    """A line for each claim of the figures of the paper, with all its measurements."""
+    lines = ["| claim | stated | measured | agree/differ/undecided |", "|---|---|---|---|"]
+    rows = [row for row in rows if row["figure"] in PAPER and row["paper"] is not None]
+    for claim in dict.fromkeys(row["claim"] for row in rows):
+        mine = sorted((row for row in rows if row["claim"] == claim),
+                      key=lambda row: row["measured"])
+        least, most = mine[0], mine[-1]
+        found = measured(least) if len(mine) == 1 else short(least)
+        if short(most) != short(least):
+            found += f" to {short(most)}"
+        count = Counter(row["verdict"] for row in mine)
+        lines.append(f"| {least['statement']} | {stated(least)} | {found} | "
+                     f"{count['agrees']}/{count['differs']}/{count['open']} |")
+    return "\n".join(lines) + "\n"
+
+
+def short(row):
+    """A measurement in three digits, or four if they begin with 1."""
+    value = row["measured"]
+    return f"{value:.{4 if f'{abs(value):e}'[0] == '1' else 3}g}".replace("-", "−")
+
+
+def verdicts(rows):
+    """How many there are of each verdict."""
+    lines = ["| measurements | agree | differ | undecided | without number |",
+             "|---|---|---|---|---|"]
+    paper = [row for row in rows if row["figure"] in PAPER]
+    for name, mine, percent in (("of the figures in the summary", paper, 99), ("all", rows, 99),
+                                ("all, at 95 %", rows, 95)):
+        count = Counter(verdict(row, percent) for row in mine if row["paper"] is not None)
+        lines.append(f"| {name} | {count['agrees']} | {count['differs']} | {count['open']} | "
+                     f"{len(mine) - sum(count.values())} |")
     return "\n".join(lines) + "\n"
 
 
@@ -73,25 +149,30 @@ def main():
     wrong = [row["id"] for row in rows if row["verdict"] != verdict(row)]
     if wrong:
         sys.exit(f"{CLAIMS}: the verdicts do not follow from the numbers of {', '.join(wrong)}")
-    texts = {document: document.read_text() for document in DOCUMENTS}
-    places = [match[2] for text in texts.values() for match in TABLE.finditer(text)]
-    figures = {row["figure"] for row in rows}
-    if missing := figures.symmetric_difference(places):
-        sys.exit(f"{HERE.parent}: expected one table of each figure of the claims: "
-                 f"{', '.join(sorted(missing))}")
-    # A claim that several variants measure stays together.
-    def of(figure):
-        mine = [row for row in rows if row["figure"] == figure]
-        order = list(dict.fromkeys(row["claim"] for row in mine))
-        return table(sorted(mine, key=lambda row: order.index(row["claim"])))
+    figures = {}
+    for row in rows:
+        figures.setdefault(row["figure"], []).append(row)
 
-    for document, text in texts.items():
-        new = TABLE.sub(lambda match: match[1] + of(match[2]) + match[3], text)
-        if "--check" not in sys.argv:
-            document.write_text(new)
-        elif new != text:
+    written = {name: table(mine) for name, mine in figures.items()}
+    written |= {"paper": summary(rows), "verdicts": verdicts(rows)}
+    texts = {document: document.read_text() for document in sorted(HERE.parent.rglob("*.md"))
+             if document != TABLES}
+    places = {match[2] for text in texts.values() for match in TABLE.finditer(text)}
+    if unknown := places - written.keys():
+        sys.exit(f"{HERE.parent}: expected tables of figures with claims, not of "
+                 f"{', '.join(sorted(unknown))}")
+    new = {document: TABLE.sub(lambda match: match[1] + written[match[2]] + match[3], text)
+           for document, text in texts.items()}
+    new[TABLES] = "\n".join([HEAD, *(f"## {name}\n\n{written[name]}" for name in figures
+                                     if name not in places)])
+    texts[TABLES] = TABLES.read_text() if TABLES.exists() else ""
+    for document, text in new.items():
+        if text == texts[document]:
+            continue
+        if "--check" in sys.argv:
             sys.exit(f"{document}: its tables are not those of {CLAIMS.name}: "
                      "docs/reproduction/tables.py writes them")
+        document.write_text(text)
 
 
 if __name__ == "__main__":

@@ -170,10 +170,11 @@ void add_reproduce_command(CLI::App& app, int& exit_code) {
   command->footer(R"(The paper is "Granular cooling of hard needles" by Huthmann, Aspelmeier and
 Zippelius. Runs that are finished are used again; the same command continues
 after an interruption. For each figure, its data (CSV) and picture (SVG) are
-written, and each claim is compared with the measurement: it agrees within three
-standard errors plus the paper's precision, differs, or is open. The last
-figures go beyond the paper: why theory is off, gases that are kicked, shaken,
-confined or fall, rods of finite width, and the liquid of needles.
+written, and each claim is compared with the measurement: it agrees if the whole
+99 % confidence interval of the mean over seeds lies within the precision that
+is stated, differs if it lies outside as a whole, and is open otherwise. The
+last figures go beyond the paper: why theory is off, gases that are kicked,
+shaken, confined or fall, rods of finite width, and the liquid of needles.
 
 The runs are sweeps of this program, and simulations of the Boltzmann equation
 by theory. Data, pictures and verdicts are made by the

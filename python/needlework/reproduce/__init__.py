@@ -13,8 +13,8 @@ numbers of finished runs, and one that draws a picture of these numbers:
 One module has one family of figures: dilute, fluctuations, ratio, relaxation, flow, dense, large,
 alignment, causes, boltzmann, driving, confined, rods, nematic, liquid. runs.py gives the runs,
 equation.py simulations of the Boltzmann equation, course.py means over seeds, cells.py fields in
-cells, claims.py the verdicts. Lengths are in units of the length L of a needle, masses in that of its
-mass m, and temperatures in T_tr(0).
+cells, claims.py the verdicts, student.py their intervals. Lengths are in units of the length L of a
+needle, masses in that of its mass m, and temperatures in T_tr(0).
 """
 
 from .claims import Claim, Row, read_claims, verdict

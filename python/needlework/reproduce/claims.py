@@ -12,10 +12,11 @@ from typing import Any, Optional
 from ..errors import InputError
 from .course import Measured
 from .figure import Figure, Measurement
+from .student import quantile
 from .toml_files import read_toml
 
-LEAST_SEEDS = 3
-STANDARD_ERRORS = 3
+CONFIDENCE = 0.99
+"""Of the interval around a mean over seeds that a verdict is about."""
 
 
 @dataclass(frozen=True)
@@ -34,25 +35,34 @@ class Claim:
     paper: Optional[float] = None
     """The number that is stated."""
     precision: Optional[float] = None
-    """How precisely it is stated."""
+    """How precisely it is stated: what is claimed is the interval paper +- precision."""
     reading: Optional[str] = None
-    """How number and precision follow from words."""
+    """How number and precision follow from what is said."""
+
+
+def half_width(measured: Measured) -> float:
+    """Of the confidence interval of what was measured: its standard error times Student's t of one
+    degree of freedom less than there are independent runs. 0 for what is computed without chance,
+    and NaN for a single run, of which no error is known."""
+    if measured.seeds is None:
+        return 0.0
+    if measured.seeds < 2 or not math.isfinite(measured.error):
+        return math.nan
+    return measured.error * quantile(CONFIDENCE, measured.seeds - 1)
 
 
 def verdict(claim: Claim, measured: Measured) -> str:
-    """ "agrees" if measurement and statement differ by at most three standard errors plus the
-    stated precision, else "differs". "open" where this cannot be decided: without a number or a
-    precision, with fewer than three independent runs, with a value or an error that is not finite,
-    and with a standard error above the stated precision."""
-    value, error, seeds = measured
+    """ "agrees" if the whole confidence interval of the measurement lies within the interval that is
+    stated, and "differs" if it lies outside as a whole. "open" where neither holds, which is
+    undecided, and where no number is stated."""
     if claim.paper is None or claim.precision is None:
         return "open"
-    if seeds is not None and seeds < LEAST_SEEDS:
-        return "open"
-    if not math.isfinite(value) or not math.isfinite(error) or error > claim.precision:
-        return "open"
-    allowed = STANDARD_ERRORS * error + claim.precision
-    return "agrees" if abs(value - claim.paper) <= allowed else "differs"
+    distance, half = abs(measured.value - claim.paper), half_width(measured)
+    if distance + half <= claim.precision:
+        return "agrees"
+    if claim.precision + half < distance < math.inf:
+        return "differs"
+    return "open"
 
 
 def read_claims(path: Path) -> dict[str, Claim]:
@@ -68,9 +78,10 @@ def read_claims(path: Path) -> dict[str, Claim]:
         for key in ("figure", "statement", "quantity"):
             if key not in table:
                 raise InputError(f"{path}: {name}.{key} is missing: expected a text")
-        if "precision" in table and "paper" not in table:
-            raise InputError(f"{path}: {name}.paper is missing: expected the number that has this "
-                             "precision")
+        missing = [key for key in ("paper", "precision", "reading") if key not in table]
+        if len(missing) in (1, 2):
+            raise InputError(f"{path}: {name}.{missing[0]} is missing: expected paper, precision "
+                             "and reading, or none of them")
         claims[name] = Claim(id=name, **table)
     return claims
 
@@ -116,6 +127,7 @@ class Row:
         return {"id": self.id, "figure": self.figure, "paper": _number(self.claim.paper),
                 "measured": _number(value), "error": _number(error), "verdict": self.verdict,
                 "precision": _number(self.claim.precision), "seeds": seeds,
+                "half_width": _number(half_width(self.measured)),
                 "claim": self.claim.id, "variant": self.variant or None,
                 "statement": self.claim.statement, "quantity": self.claim.quantity,
                 "where": self.claim.where, "reading": self.claim.reading}
