@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes the tables of ../reproduction.md, and of the pages of what goes beyond the paper, from
-claims-all.json, which `needlework reproduce all` has written. Each table stands in one of the
-documents, between <!-- table FIGURE --> and <!-- end -->.
+"""Writes the tables of claims-all.json, which `needlework reproduce all` has written. ../reproduction.md
+keeps those of its figures between <!-- table FIGURE --> and <!-- end -->; claims/README.md has those of
+all others.
 
     tables.py           replaces the tables
     tables.py --check   exit code 1 if they are others, or if a verdict does not follow from its numbers
@@ -14,10 +14,15 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-DOCUMENTS = [HERE.parent / f"{name}.md" for name in (
-    "reproduction", "driven-gas", "vibrated-layer", "cooling-between-walls", "sedimentation", "rods",
-    "needle-liquid")]
+DOCUMENT = HERE.parent / "reproduction.md"
 CLAIMS = HERE / "claims-all.json"
+TABLES = HERE / "claims/README.md"
+HEAD = """# Claims and measurements
+
+Written by [tables.py](../tables.py) from [claims-all.json](../claims-all.json). *Stated* is a number with its
+precision, *measured* a mean over so many seeds with its standard error.
+[Reproduction](../../reproduction.md#how-to-read-the-tables) says what a verdict means.
+"""
 TABLE = re.compile(r"(<!-- table (\S+) -->\n).*?(<!-- end -->)", re.S)
 
 
@@ -73,23 +78,25 @@ def main():
     wrong = [row["id"] for row in rows if row["verdict"] != verdict(row)]
     if wrong:
         sys.exit(f"{CLAIMS}: the verdicts do not follow from the numbers of {', '.join(wrong)}")
-    texts = {document: document.read_text() for document in DOCUMENTS}
-    places = [match[2] for text in texts.values() for match in TABLE.finditer(text)]
-    figures = {row["figure"] for row in rows}
-    if missing := figures.symmetric_difference(places):
-        sys.exit(f"{HERE.parent}: expected one table of each figure of the claims: "
-                 f"{', '.join(sorted(missing))}")
+    text = DOCUMENT.read_text()
+    places = [match[2] for match in TABLE.finditer(text)]
+    figures = list(dict.fromkeys(row["figure"] for row in rows))
+    if unknown := set(places).difference(figures):
+        sys.exit(f"{DOCUMENT}: expected tables of figures with claims: {', '.join(sorted(unknown))}")
+
     # A claim that several variants measure stays together.
     def of(figure):
         mine = [row for row in rows if row["figure"] == figure]
         order = list(dict.fromkeys(row["claim"] for row in mine))
         return table(sorted(mine, key=lambda row: order.index(row["claim"])))
 
-    for document, text in texts.items():
-        new = TABLE.sub(lambda match: match[1] + of(match[2]) + match[3], text)
+    new = {DOCUMENT: TABLE.sub(lambda match: match[1] + of(match[2]) + match[3], text),
+           TABLES: "\n".join([HEAD, *(f"## {name}\n\n{of(name)}" for name in figures
+                                      if name not in places)])}
+    for document, text in new.items():
         if "--check" not in sys.argv:
-            document.write_text(new)
-        elif new != text:
+            document.write_text(text)
+        elif not document.exists() or document.read_text() != text:
             sys.exit(f"{document}: its tables are not those of {CLAIMS.name}: "
                      "docs/reproduction/tables.py writes them")
 
