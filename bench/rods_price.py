@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""What rods of finite width and spheres cost, beside needles: the table of docs/rods.md.
+"""What rods of finite width and spheres cost, beside needles: the table of
+bench/results/rods.md.
 
 Each gas of rods is compared with two gases of needles: one with as many collisions of a body while it
 flies its own extent (L + D), and one with as many neighbours, n (L + D)^3. Instructions per collision
@@ -169,7 +170,7 @@ def main():
     parser.add_argument("--program", default=str(measured.ROOT / "build/release/needlework"))
     parser.add_argument("--rounds", type=int, default=5, help="of CPU times")
     parser.add_argument("--threads", type=int, nargs="+", default=[1, 2], choices=[1, 2])
-    parser.add_argument("--dry", action="store_true", help="print the table, leave docs/rods.md")
+    parser.add_argument("--dry", action="store_true", help="print the table, leave the file")
     arguments = parser.parse_args()
     program = Path(arguments.program)
     program = measured.built(program.parent, program.name)
@@ -188,7 +189,7 @@ def main():
             f"{isa}{rounds}; {build['compiler']}, {build['flags']}.\n\n"
             + table(triples, counted, times, arguments.threads))
     if not arguments.dry:
-        put_table("price", text, "rods.md")
+        put_table("price", text, "../bench/results/rods.md")
     print(text, end="")
     return 0
 
