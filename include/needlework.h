@@ -345,12 +345,17 @@ NEEDLEWORK_API int needlework_get_species_of_needles(needlework_simulation* simu
 /* Room and pressure of rods of finite width, or of spheres. Of needles, packing fraction and virial
  * are 0. */
 typedef struct needlework_rods {
-  double packing_fraction; /* volume of all rods over that of the box */
-  double virial; /* sum of r12 . dp over the collisions since the start, r12 from the second centre
-                    to the first and dp the impulse on the first */
-  double pressure; /* mean over the run: (N <t_tr> + virial / (3 t)) / V or, where there are walls,
-                      what all of them feel over their area; NaN at the start, and with gravity
-                      along an axis with walls */
+  /* numbers of rods */
+  /* Share of the volume of the box that rods take up */
+  double packing_fraction;
+  /* Sum of r12 . dp over the collisions since the start of the run, r12 from the second centre to
+   * the first and dp the impulse on the first [mass times length squared per time] */
+  double virial;
+  /* Mean over the run: N T_tr and a third of what the virial gains in a unit of time, over the
+   * volume of the box; where there are walls, what all of them feel, over their area; NaN at its
+   * start, and with gravity along an axis with walls [energy per volume] */
+  double pressure;
+  /* end of numbers */
 } needlework_rods;
 
 /* Copies what is known of rods at the present time. [handle] */
@@ -367,13 +372,25 @@ NEEDLEWORK_API int needlework_get_species_shape(needlework_simulation* simulatio
 typedef struct needlework_wall {
   int axis;              /* 0, 1, 2 for x, y, z */
   int high;              /* 1 at the high edge of the box, 0 at the low one */
-  uint64_t hits;         /* which are no collisions */
-  double impulse;        /* sum of the magnitudes of their impulses [mass length / time] */
-  double normal_impulse; /* the same of their components along the normal, with their signs; over
-                            area and time it is the pressure */
-  double area;           /* of the face of the box */
-  double phase;          /* of its motion, in radians from 0 to 2 pi; NaN at rest */
-  double energy;         /* that hits have put into the gas, per needle; negative: taken out */
+  /* numbers of walls */
+  /* Number of hits, which are no collisions */
+  uint64_t hits;
+  /* Sum of the magnitudes of their impulses [mass times length per time] */
+  double impulse;
+  /* Sum of the components of these impulses along the normal into the gas, which thermal walls may
+   * draw negative [mass times length per time] */
+  double normal_impulse;
+  /* Area of the face of the box at the wall [length squared] */
+  double area;
+  /* Phase of the motion of the wall now, from 0 to 2 pi, so that its surface is off by amplitude
+   * times its sine; NaN at rest [radians] */
+  double phase;
+  /* Energy that hits have put into the gas, per needle; negative: taken out [energy] */
+  double energy;
+  /* Mean over the run, impulse along the normal over area and time; NaN at its start [energy per
+   * volume] */
+  double pressure;
+  /* end of numbers */
 } needlework_wall;
 
 /* The number of walls; 0 on failure. [handle] */
@@ -386,15 +403,24 @@ NEEDLEWORK_API int needlework_get_wall(needlework_simulation* simulation, size_t
 
 /* Contacts of needles that slide on each other, since the start. */
 typedef struct needlework_contacts {
-  uint64_t entered;         /* begun */
-  uint64_t ended_by_force;  /* where the force that holds the needles together would pull */
-  uint64_t ended_by_tip;    /* as a tip was reached */
-  uint64_t ended_by_strike; /* as anything else changed the velocities of one of the needles */
-  uint64_t crowded;         /* collisions whose epsilon was raised, as one of the needles had just
-                               touched another one or a wall */
-  double time;              /* that pairs have been in contact, without that of present steps */
-  double share;             /* of its time that a needle has been in contact, on average:
-                               2 time / (N t); NaN at the start */
+  /* numbers of contacts */
+  /* Number of contacts that have begun */
+  uint64_t entered;
+  /* Number of them that have ended where the force that holds the needles together would pull */
+  uint64_t ended_by_force;
+  /* Number of them that have ended as a tip was reached; the needles pass each other */
+  uint64_t ended_by_tip;
+  /* Number of them that have ended as anything else changed the velocities of one of the needles */
+  uint64_t ended_by_strike;
+  /* Number of collisions whose epsilon was raised, as one of the needles had just touched another
+   * one or a wall */
+  uint64_t crowded;
+  /* Time that pairs have been in contact, of all together, without that of present steps [time] */
+  double time;
+  /* Share of its time that a needle has been in contact, the mean of all: 2 time / (N t); NaN at
+   * the start */
+  double share;
+  /* end of numbers */
 } needlework_contacts;
 
 /* Copies what is known of contacts; all 0 in a scene without collisions.sliding. [handle] */
@@ -442,12 +468,20 @@ NEEDLEWORK_API int needlework_get_totals(needlework_simulation* simulation,
 /* What each effect has put into the energy per needle since the start; negative: taken out. The sum
  * is the change of the energy, up to rounding. 0 for effects that the scene has not. */
 typedef struct needlework_energy_budget {
-  double pairs;          /* collisions of two needles */
-  double walls;          /* hits on all walls; see needlework_wall.energy */
-  double thermostat;     /* the thermostat */
-  double kicks;          /* kicks */
-  double velocities_set; /* velocities that the caller has replaced */
-  double gravity;        /* its work along periodic axes */
+  /* numbers of energy_budget */
+  /* Energy by collisions of two needles [energy] */
+  double pairs;
+  /* Energy by hits on each wall, of all [energy] */
+  double walls;
+  /* Energy by the thermostat [energy] */
+  double thermostat;
+  /* Energy by kicks [energy] */
+  double kicks;
+  /* Energy by velocities that a caller has replaced [energy] */
+  double velocities_set;
+  /* Energy by gravity along periodic axes [energy] */
+  double gravity;
+  /* end of numbers */
 } needlework_energy_budget;
 
 /* The budget of energy at the present time. [handle] */

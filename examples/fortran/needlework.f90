@@ -75,7 +75,11 @@ module needlework
   end type
 
   type, bind(c) :: needlework_rods
-    real(c_double) :: packing_fraction, virial, pressure
+    ! numbers of rods
+    real(c_double) :: packing_fraction
+    real(c_double) :: virial
+    real(c_double) :: pressure
+    ! end of numbers
   end type
 
   type, bind(c) :: needlework_gas
@@ -102,17 +106,38 @@ module needlework
 
   type, bind(c) :: needlework_wall
     integer(c_int) :: axis, high
+    ! numbers of walls
     integer(c_int64_t) :: hits
-    real(c_double) :: impulse, normal_impulse, area, phase, energy
+    real(c_double) :: impulse
+    real(c_double) :: normal_impulse
+    real(c_double) :: area
+    real(c_double) :: phase
+    real(c_double) :: energy
+    real(c_double) :: pressure
+    ! end of numbers
   end type
 
   type, bind(c) :: needlework_contacts
-    integer(c_int64_t) :: entered, ended_by_force, ended_by_tip, ended_by_strike, crowded
-    real(c_double) :: time, share
+    ! numbers of contacts
+    integer(c_int64_t) :: entered
+    integer(c_int64_t) :: ended_by_force
+    integer(c_int64_t) :: ended_by_tip
+    integer(c_int64_t) :: ended_by_strike
+    integer(c_int64_t) :: crowded
+    real(c_double) :: time
+    real(c_double) :: share
+    ! end of numbers
   end type
 
   type, bind(c) :: needlework_energy_budget
-    real(c_double) :: pairs, walls, thermostat, kicks, velocities_set, gravity
+    ! numbers of energy_budget
+    real(c_double) :: pairs
+    real(c_double) :: walls
+    real(c_double) :: thermostat
+    real(c_double) :: kicks
+    real(c_double) :: velocities_set
+    real(c_double) :: gravity
+    ! end of numbers
   end type
 
   abstract interface

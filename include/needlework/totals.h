@@ -3,8 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
+
+#include "needlework/described.h"
 
 namespace needlework {
 
@@ -22,9 +25,19 @@ struct Totals {
 
 /// What Totals has of the needles of one species.
 struct SpeciesTotals {
-  std::uint64_t count = 0;  ///< number of needles
-  double t_tr = 0;          ///< (2/3) <m v^2 / 2>
-  double t_rot = 0;         ///< <I w^2 / 2>
+  std::uint64_t count = 0;
+  double t_tr = 0, t_rot = 0;
+
+  /// Calls visit(Described, value) for each number, here and below in the order of all interfaces.
+  template <class Visit>
+  constexpr void for_each(Visit&& visit) const {
+    visit(Described{"count", unit::none, "Number of needles"}, count);
+    visit(Described{"t_tr", unit::energy,
+                    "Translational temperature, two thirds of the mean energy of translation"},
+          t_tr);
+    visit(Described{"t_rot", unit::energy, "Rotational temperature, the mean energy of rotation"},
+          t_rot);
+  }
 };
 
 /// What has happened at one object of a source of events, such as a wall, since the start of a run.
@@ -39,48 +52,107 @@ struct WallTotals {
   int axis = 0;       ///< 0, 1, 2 for x, y, z
   bool high = false;  ///< at the high edge of the box, else at the low one
   std::uint64_t hits = 0;
-  double impulse = 0;         ///< sum of |J| [m L / time]
-  double normal_impulse = 0;  ///< sum of J along the normal into the gas, which thermal walls may
-                              ///< draw negative; over area and time it is the pressure
-  double area = 0;            ///< of its face of the box [L^2]
-  double phase = 0;           ///< of its motion now, in radians from 0 to 2 pi; NaN at rest
+  double impulse = 0, normal_impulse = 0, area = 0, phase = 0, energy = 0;
+  double pressure = std::numeric_limits<double>::quiet_NaN();
 
-  /// Mean over the time since the start. [energy / L^3]
-  double pressure(double time) const { return normal_impulse / (area * time); }
+  template <class Visit>
+  constexpr void for_each(Visit&& visit) const {
+    visit(Described{"hits", unit::none, "Number of hits, which are no collisions"}, hits);
+    visit(Described{"impulse", unit::momentum, "Sum of the magnitudes of their impulses"}, impulse);
+    visit(Described{"normal_impulse", unit::momentum,
+                    "Sum of the components of these impulses along the normal into the gas, which "
+                    "thermal walls may draw negative"},
+          normal_impulse);
+    visit(Described{"area", unit::area, "Area of the face of the box at the wall"}, area);
+    visit(
+        Described{"phase", unit::angle,
+                  "Phase of the motion of the wall now, from 0 to 2 pi, so that its surface is off "
+                  "by amplitude times its sine; NaN at rest"},
+        phase);
+    visit(Described{"energy", unit::energy,
+                    "Energy that hits have put into the gas, per needle; negative: taken out"},
+          energy);
+    visit(Described{"pressure", unit::pressure,
+                    "Mean over the run, impulse along the normal over area and time; NaN at its "
+                    "start"},
+          pressure);
+  }
 };
 
 /// Contacts of needles that slide on each other, since the start of the run. Each that was entered
 /// has ended, or lasts.
 struct SlidingContacts {
-  std::uint64_t entered = 0;
-  std::uint64_t ended_by_force = 0;   ///< the force that holds the needles together would pull
-  std::uint64_t ended_by_tip = 0;     ///< a tip was reached; the needles pass each other
-  std::uint64_t ended_by_strike = 0;  ///< anything else changed the velocities of one of the two
-  /// Collisions whose epsilon was raised, as one of the needles had just touched a third one.
-  std::uint64_t crowded = 0;
-  double time = 0;  ///< that pairs have been in contact, without that of present steps [time]
+  std::uint64_t entered = 0, ended_by_force = 0, ended_by_tip = 0, ended_by_strike = 0, crowded = 0;
+  double time = 0, share = 0;
+
+  template <class Visit>
+  constexpr void for_each(Visit&& visit) const {
+    visit(Described{"entered", unit::none, "Number of contacts that have begun"}, entered);
+    visit(
+        Described{"ended_by_force", unit::none,
+                  "Number of them that have ended where the force that holds the needles together "
+                  "would pull"},
+        ended_by_force);
+    visit(Described{"ended_by_tip", unit::none,
+                    "Number of them that have ended as a tip was reached; the needles pass each "
+                    "other"},
+          ended_by_tip);
+    visit(Described{"ended_by_strike", unit::none,
+                    "Number of them that have ended as anything else changed the velocities of one "
+                    "of the needles"},
+          ended_by_strike);
+    visit(Described{"crowded", unit::none,
+                    "Number of collisions whose epsilon was raised, as one of the needles had just "
+                    "touched another one or a wall"},
+          crowded);
+    visit(
+        Described{"time", unit::time,
+                  "Time that pairs have been in contact, of all together, without that of present "
+                  "steps"},
+        time);
+    visit(Described{"share", unit::none,
+                    "Share of its time that a needle has been in contact, the mean of all: "
+                    "2 time / (N t); NaN at the start"},
+          share);
+  }
 };
 
 /// What each effect has put into the energy of the needles since the start of a run, as energy per
 /// needle; negative where it has taken energy out. The sum is the change of Totals::energy, up to
-/// the rounding of needles' motion (Simulation::energy_drift).
+/// the rounding of needles' motion (Simulation::energy_drift). Effects that the scene has not have
+/// no value.
 struct EnergyBudget {
-  double pairs = 0;                  ///< collisions of two needles
-  std::vector<double> walls;         ///< hits on each wall, in the order of wall_totals()
-  std::optional<double> thermostat;  ///< if there is one
-  std::optional<double> kicks;       ///< if there are some
-  std::optional<double> gravity;     ///< its work along periodic axes, if there is some
-  double velocities_set = 0;         ///< velocities that a caller has replaced
+  double pairs = 0;
+  std::vector<double> walls;  ///< in the order of wall_totals()
+  std::optional<double> thermostat, kicks, gravity;
+  double velocities_set = 0;
 
-  /// Calls visit(name, value) for each that there is; the value of walls is an array.
+  /// With 0 for what the scene has not.
+  EnergyBudget complete() const {
+    EnergyBudget out = *this;
+    if (walls.empty()) out.walls = {0};
+    for (std::optional<double>* each : {&out.thermostat, &out.kicks, &out.gravity})
+      if (!*each) *each = 0;
+    return out;
+  }
+
+  /// Calls visit(Described, value) for each that there is; the value of walls is an array.
   template <class Visit>
   void for_each(Visit&& visit) const {
-    visit("pairs", pairs);
-    if (!walls.empty()) visit("walls", walls);
-    if (thermostat) visit("thermostat", *thermostat);
-    if (kicks) visit("kicks", *kicks);
-    if (gravity) visit("gravity", *gravity);
-    visit("velocities_set", velocities_set);
+    visit(Described{"pairs", unit::energy, "Energy by collisions of two needles"}, pairs);
+    if (!walls.empty()) {
+      visit(Described{"walls", unit::energy, "Energy by hits on each wall"}, walls);
+    }
+    if (thermostat) {
+      visit(Described{"thermostat", unit::energy, "Energy by the thermostat"}, *thermostat);
+    }
+    if (kicks) visit(Described{"kicks", unit::energy, "Energy by kicks"}, *kicks);
+    visit(Described{"velocities_set", unit::energy,
+                    "Energy by velocities that a caller has replaced"},
+          velocities_set);
+    if (gravity) {
+      visit(Described{"gravity", unit::energy, "Energy by gravity along periodic axes"}, *gravity);
+    }
   }
 };
 

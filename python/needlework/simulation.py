@@ -52,12 +52,14 @@ class Totals(Values):
 class SpeciesTotals(Values):
     """Sums over the needles of one species at one instant."""
 
+    # numbers of species
     count: int
     """Number of needles."""
     t_tr: float
-    """Translational temperature, two thirds of the mean energy of translation."""
+    """Translational temperature, two thirds of the mean energy of translation [energy]."""
     t_rot: float
-    """Rotational temperature, the mean energy of rotation."""
+    """Rotational temperature, the mean energy of rotation [energy]."""
+    # end of numbers
 
 
 class WallTotals(Values):
@@ -67,26 +69,41 @@ class WallTotals(Values):
     """"x", "y" or "z"."""
     side: str
     """"low" or "high"."""
+    # numbers of walls
     hits: int
     """Number of hits, which are no collisions."""
     impulse: float
-    """Sum of the magnitudes of their impulses."""
-    pressure: float
-    """Mean over the run: impulse along the normal over area and time; NaN at its start."""
+    """Sum of the magnitudes of their impulses [mass times length per time]."""
+    normal_impulse: float
+    """Sum of the components of these impulses along the normal into the gas, which thermal
+    walls may draw negative [mass times length per time]."""
+    area: float
+    """Area of the face of the box at the wall [length squared]."""
     phase: float
-    """Of its motion at present, in radians from 0 to 2 pi; NaN if it is at rest."""
+    """Phase of the motion of the wall now, from 0 to 2 pi, so that its surface is off by
+    amplitude times its sine; NaN at rest [radians]."""
+    energy: float
+    """Energy that hits have put into the gas, per needle; negative: taken out [energy]."""
+    pressure: float
+    """Mean over the run, impulse along the normal over area and time; NaN at its start [energy
+    per volume]."""
+    # end of numbers
 
 
 class RodTotals(Values):
     """Room and pressure of rods of finite width."""
 
+    # numbers of rods
     packing_fraction: float
-    """Share of the volume of the box that they take up."""
+    """Share of the volume of the box that rods take up."""
     virial: float
-    """Sum of r12 . dp over the collisions since the start, r12 from the second centre to the first
-    and dp the impulse on the first."""
+    """Sum of r12 . dp over the collisions since the start of the run, r12 from the second
+    centre to the first and dp the impulse on the first [mass times length squared per time]."""
     pressure: float
-    """Mean over the run; NaN at its start, and where it depends on the height."""
+    """Mean over the run: N T_tr and a third of what the virial gains in a unit of time, over
+    the volume of the box; where there are walls, what all of them feel, over their area; NaN at
+    its start, and with gravity along an axis with walls [energy per volume]."""
+    # end of numbers
     pressure_meaning: str
     """Which mean that is: by the virial, on the walls, or why there is none."""
 
@@ -94,39 +111,47 @@ class RodTotals(Values):
 class SlidingContacts(Values):
     """Contacts of needles that slide on each other, since the start."""
 
+    # numbers of contacts
     entered: int
     """Number of contacts that have begun."""
     ended_by_force: int
-    """Those that have ended where the force that holds the needles together would pull."""
+    """Number of them that have ended where the force that holds the needles together would
+    pull."""
     ended_by_tip: int
-    """Those that have ended as a tip was reached."""
+    """Number of them that have ended as a tip was reached; the needles pass each other."""
     ended_by_strike: int
-    """Those that have ended as anything else changed the velocities of one of the needles."""
+    """Number of them that have ended as anything else changed the velocities of one of the
+    needles."""
     crowded: int
-    """Collisions whose epsilon was raised, as one of the needles had just touched another one or a
-    wall."""
+    """Number of collisions whose epsilon was raised, as one of the needles had just touched
+    another one or a wall."""
     time: float
-    """That pairs have been in contact, of all together, without that of their present steps."""
+    """Time that pairs have been in contact, of all together, without that of present steps
+    [time]."""
     share: float
-    """Of its time that a needle has been in contact, on average: 2 time / (N t); NaN at the start."""
+    """Share of its time that a needle has been in contact, the mean of all: 2 time / (N t); NaN
+    at the start."""
+    # end of numbers
 
 
 class EnergyBudget(Values):
     """Energy per needle that each effect has put in since the start; negative: taken out. The sum
     is the change of Totals.energy, up to rounding. Effects that the scene has not are missing."""
 
+    # numbers of energy_budget
     pairs: float
-    """By collisions of two needles."""
+    """Energy by collisions of two needles [energy]."""
     walls: np.ndarray
-    """By hits on each wall, in the order of wall_totals, [walls]."""
+    """Energy by hits on each wall [energy]."""
     thermostat: float
-    """By the thermostat."""
+    """Energy by the thermostat [energy]."""
     kicks: float
-    """By kicks."""
-    gravity: float
-    """By gravity along periodic axes."""
+    """Energy by kicks [energy]."""
     velocities_set: float
-    """By set_velocities()."""
+    """Energy by velocities that a caller has replaced [energy]."""
+    gravity: float
+    """Energy by gravity along periodic axes [energy]."""
+    # end of numbers
 
     @property
     def total(self) -> float:

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "src/c/handle.h"
+#include "src/c/numbers.h"
 #include "src/runs/rod_totals.h"
 
 using namespace needlework;
@@ -58,11 +59,8 @@ int needlework_get_species_shape(needlework_simulation* simulation, size_t index
 int needlework_get_rods(needlework_simulation* simulation, needlework_rods* rods) {
   return c::guarded(simulation, [&](needlework_simulation& self) {
     c::require(rods, "rods");
-    const Simulation& source = self.run.simulation();
-    const runs::RodTotals totals = runs::rod_totals(self.run.scene(), source);
-    *rods = {.packing_fraction = totals.packing_fraction,
-             .virial = totals.virial,
-             .pressure = totals.pressure};
+    c::copy_numbers(runs::rod_totals(self.run.scene(), self.run.simulation()), *rods,
+                    &needlework_rods::packing_fraction);
   });
 }
 

@@ -4,7 +4,7 @@
 #include <istream>
 #include <nlohmann/json.hpp>
 
-#include "src/serve/shallow_json.h"
+#include "src/json/shallow_json.h"
 
 namespace needlework::cli {
 
@@ -16,6 +16,6 @@ std::string json_text(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
-Json parse_json(std::istream& text) { return serve::parse_shallow<Json>(text); }
+Json parse_json(std::istream& text) { return json::parse_shallow<Json>(text); }
 
 }  // namespace needlework::cli

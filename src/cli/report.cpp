@@ -9,13 +9,13 @@
 
 #include "needlework/initial_state.h"
 #include "src/cli/json.h"
+#include "src/json/results.h"
 #include "src/observe/forecast.h"
 #include "src/runs/exact_rates.h"
 #include "src/runs/loaded_scene.h"
 #include "src/runs/resources.h"
 #include "src/scene/accuracy.h"
 #include "src/scene/confinement.h"
-#include "src/serve/species_json.h"
 
 namespace needlework::cli {
 namespace {
@@ -154,11 +154,11 @@ std::string json_of(const Report& report) {
   json["t_tr"] = number(last.t_tr);
   json["t_rot"] = number(last.t_rot);
   json["momentum"] = {number(last.momentum[0]), number(last.momentum[1]), number(last.momentum[2])};
-  if (!scene.species.empty()) serve::add_species(json, simulation);
-  if (simulation.composition().has_width()) serve::add_rods(json, scene, simulation);
-  if (!scene.walls.empty()) serve::add_walls(json, simulation);
-  if (acts_on_single_needles(scene)) serve::add_energy_budget(json, simulation);
-  serve::add_contacts(json, simulation);
+  if (!scene.species.empty()) json::add_species(json, simulation);
+  if (simulation.composition().has_width()) json::add_rods(json, scene, simulation);
+  if (!scene.walls.empty()) json::add_walls(json, simulation);
+  if (acts_on_single_needles(scene)) json::add_energy_budget(json, simulation);
+  json::add_contacts(json, simulation);
   json["theory"] = nullptr;
   if (const auto theory = report.theory_at(last)) {
     json["theory"] = {{"energy", number(theory->energy())},

@@ -11,7 +11,6 @@
 #include "src/cli/report.h"
 #include "src/composition/pair_name.h"
 #include "src/runs/amount_text.h"
-#include "src/runs/contact_share.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/exact_rates.h"
 #include "src/runs/rod_totals.h"
@@ -163,21 +162,35 @@ std::string pair_lines(const Report& report) {
   return text + rest_line(names.size(), shown.size(), "as few or fewer", "collisions_by_pair");
 }
 
+// The numbers of a result that there are, with their names as words.
+template <class Sums>
+std::string numbers_text(const Sums& sums) {
+  std::string text;
+  sums.for_each([&](const Described& number, const auto& value) {
+    if (!std::isfinite(static_cast<double>(value))) return;
+    std::string name = number.name;
+    std::ranges::replace(name, '_', ' ');
+    text += fmt::format("{}{} ", text.empty() ? "" : ", ", name);
+    if constexpr (std::is_integral_v<std::decay_t<decltype(value)>>) {
+      text += fmt::format("{}", value);
+    } else {
+      text += fmt::format("{:.5g}", value);
+    }
+  });
+  return text;
+}
+
 std::string rod_line(const Report& report) {
   if (!report.simulation.composition().has_width() || !(report.course.last.time > 0)) return {};
-  const runs::RodTotals rods = runs::rod_totals(report.scene, report.simulation);
-  const std::string pressure =
-      std::isfinite(rods.pressure) ? fmt::format("{:.5g}, ", rods.pressure) : "";
-  return line("rods", "packing fraction {:.5g}, pressure {}{}", rods.packing_fraction, pressure,
-              rods.pressure_meaning);
+  const observe::RodTotals rods = runs::rod_totals(report.scene, report.simulation);
+  return line("rods", "{}; pressure: {}", numbers_text(rods), rods.pressure_meaning);
 }
 
 std::string wall_lines(const Report& report) {
   std::string text;
   for (const WallTotals& wall : report.simulation.wall_totals()) {
-    text += line(text.empty() ? "walls" : "", "{} {}: {} hits, impulse {:.6g}, pressure {:.5g}",
-                 axis_name(wall), side_name(wall), wall.hits, wall.impulse,
-                 wall.pressure(report.course.last.time));
+    text += line(text.empty() ? "walls" : "", "{} {}: {}", axis_name(wall), side_name(wall),
+                 numbers_text(wall));
   }
   return text;
 }
@@ -190,9 +203,10 @@ std::string budget_line(const Report& report) {
     text += fmt::format("{}{} {:+.5g}", text.empty() ? "" : ", ", name, energy);
   };
   const auto walls = report.simulation.wall_totals();
-  report.simulation.energy_budget().for_each([&](const char* name, const auto& energy) {
+  report.simulation.energy_budget().for_each([&](const Described& number, const auto& energy) {
+    const std::string name = number.name;
     if constexpr (std::is_arithmetic_v<std::decay_t<decltype(energy)>>) {
-      const bool is_of_caller = std::string_view(name) == "velocities_set";
+      const bool is_of_caller = name == "velocities_set";
       if (!is_of_caller || energy != 0) add(name, energy);
     } else {
       for (std::size_t n = 0; n < walls.size(); ++n) {
@@ -298,14 +312,7 @@ std::string summary_of(const Report& report) {
                         per_cent(last.collisions ? share : 0));
   }
   if (const auto contacts = report.simulation.sliding_contacts()) {
-    text += line("contacts", "{} entered; {} ended by force, {} at a tip, {} by a strike",
-                 contacts->entered, contacts->ended_by_force, contacts->ended_by_tip,
-                 contacts->ended_by_strike);
-    if (last.time > 0) {
-      text.pop_back();
-      text += fmt::format("; {} of the time of a needle\n",
-                          per_cent(runs::contact_share(report.simulation, *contacts)));
-    }
+    text += line("contacts", "{}", numbers_text(*contacts));
   }
   text += rod_line(report);
   text += wall_lines(report);

@@ -434,19 +434,27 @@ std::vector<WallTotals> Simulation::wall_totals() const {
       out[wall].normal_impulse = by_source[n][wall].normal_impulse;
     }
   }
+  const EnergyBudget budget = run.energy_budget();
+  for (std::size_t n = 0; n < out.size(); ++n) {
+    out[n].energy = n < budget.walls.size() ? budget.walls[n] : 0;
+    out[n].pressure = out[n].normal_impulse / (out[n].area * time());
+  }
   return out;
 }
 
 std::optional<SlidingContacts> Simulation::sliding_contacts() const {
+  const kernels::DefaultArithmetic arithmetic;
   const Run& run = implementation_->run;
   if (!run.sliding) return std::nullopt;
   const SlidingTally& tally = run.tally.sliding;
+  const double of_all = static_cast<double>(needles()) * time();
   return SlidingContacts{.entered = tally.entered,
                          .ended_by_force = tally.by_force,
                          .ended_by_tip = tally.by_tip,
                          .ended_by_strike = tally.by_strike,
                          .crowded = tally.crowded,
-                         .time = tally.time.value()};
+                         .time = tally.time.value(),
+                         .share = 2 * tally.time.value() / of_all};
 }
 
 EnergyBudget Simulation::energy_budget() const {

@@ -4,6 +4,9 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <string_view>
+
+#include "src/observe/described_fields.h"
 
 namespace needlework::observe {
 
@@ -100,19 +103,17 @@ class OfSpecies : public Observable {
 
   std::vector<SeriesField> fields() const override {
     const std::vector<SeriesField::Extent> each{{"species", composition_.size()}};
-    return {
-        {"t_tr", "Translational temperature of each species", unit::energy, each},
-        {"t_rot", "Rotational temperature of each species", unit::energy, each},
-        {"collisions",
-         "Number of collisions since the start of the run of each two species, in the order of the "
-         "scene: of the first with itself, with the second and so on, then of the second",
-         unit::none, by_pair(composition_, {}), SeriesField::Kind::count},
-    };
+    auto out = fields_of(SpeciesTotals{}, each, is_sampled);
+    out.push_back({"collisions",
+                   "Number of collisions since the start of the run of each two species, in the "
+                   "order of the scene: of the first with itself, with the second and so on, then "
+                   "of the second",
+                   unit::none, by_pair(composition_, {}), SeriesField::Kind::count});
+    return out;
   }
 
   void sample(const Snapshot& now, Row& row) override {
-    for (const SpeciesTotals& each : now.species.totals) row.put(each.t_tr);
-    for (const SpeciesTotals& each : now.species.totals) row.put(each.t_rot);
+    put_numbers(row, now.species.totals, is_sampled);
     for (const std::uint64_t collisions : now.species.collisions) {
       row.put(static_cast<double>(collisions));
     }
@@ -121,6 +122,9 @@ class OfSpecies : public Observable {
   bool reads_state() const override { return false; }
 
  private:
+  // Numbers of needles do not change.
+  static bool is_sampled(std::string_view name) { return name != "count"; }
+
   Composition composition_;
 };
 

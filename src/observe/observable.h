@@ -23,23 +23,6 @@
 
 namespace needlework::observe {
 
-/// Units in words, for SeriesField::unit.
-namespace unit {
-inline constexpr const char* none = "";
-inline constexpr const char* time = "time";
-inline constexpr const char* length = "length";
-inline constexpr const char* area = "length squared";
-inline constexpr const char* wave_number = "radians per length";
-inline constexpr const char* density = "needles per volume";
-inline constexpr const char* speed = "length per time";
-inline constexpr const char* angular_speed = "radians per time";
-inline constexpr const char* energy = "energy";
-inline constexpr const char* angle = "radians";
-inline constexpr const char* pressure = "energy per volume";
-inline constexpr const char* momentum = "mass times length per time";
-inline constexpr const char* virial = "mass times length squared per time";
-}  // namespace unit
-
 /// Which species each needle is of, by its id.
 class SpeciesById {
  public:

@@ -2,8 +2,12 @@
 #include "src/observe/rod_sums.h"
 
 #include <cmath>
+#include <string_view>
+#include <vector>
 
+#include "src/observe/described_fields.h"
 #include "src/observe/pressure.h"
+#include "src/observe/rod_totals.h"
 
 namespace needlework::observe {
 namespace {
@@ -14,33 +18,27 @@ class RodSums : public Observable {
       : pressure_(scene), packing_(gas.composition.packing_fraction(gas.volume())) {}
 
   std::vector<SeriesField> fields() const override {
-    using enum SeriesField::Kind;
-    return {
-        {"packing_fraction",
-         "Share of the volume of the box that rods take up",
-         unit::none,
-         {},
-         constant,
-         {packing_}},
-        {"virial",
-         "Sum of r12 . dp over the collisions since the start of the run, r12 from the second "
-         "centre to the first and dp the impulse on the first",
-         unit::virial,
-         {}},
-        {"pressure",
-         "Mean since the sample before: N T_tr and a third of what the virial gains in a unit of "
-         "time, over the volume of the box; where there are walls, what all of them feel, over "
-         "their area; NaN at the first sample, and with gravity along an axis with walls",
-         unit::pressure,
-         {}},
-    };
+    auto out = fields_of(RodTotals{});
+    for (SeriesField& field : out) {
+      if (field.name == "packing_fraction") {
+        field.kind = SeriesField::Kind::constant;
+        field.values = {packing_};
+      } else if (field.name == "pressure") {
+        field.meaning =
+            "Mean since the sample before: N T_tr and a third of what the virial gains in a unit "
+            "of time, over the volume of the box; where there are walls, what all of them feel, "
+            "over their area; NaN at the first sample, and with gravity along an axis with walls";
+      }
+    }
+    return out;
   }
 
   void sample(const Snapshot& now, Row& row) override {
     const PressureSums sums = pressure_sums(now.totals.time, now.species.t_tr_integral,
                                             now.species.virial, now.species.walls);
-    row.put(sums.virial);
-    row.put(pressure_.between(before_, sums));
+    const std::vector<RodTotals> rods{
+        {.virial = sums.virial, .pressure = pressure_.between(before_, sums)}};
+    put_numbers(row, rods, [](std::string_view name) { return name != "packing_fraction"; });
     before_ = sums;
   }
 

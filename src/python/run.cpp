@@ -18,7 +18,6 @@
 #include "src/python/interpreter.h"
 #include "src/python/monitor.h"
 #include "src/python/scene_source.h"
-#include "src/runs/contact_share.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/load_checkpoint.h"
 #include "src/runs/output_path.h"
@@ -270,6 +269,29 @@ py::tuple Run::state() {
                         read_only(state.image), read_only(state.id), read_only(state.species));
 }
 
+namespace {
+
+// Adds the numbers of a result under their names.
+template <class Sums>
+void add_numbers(py::dict& to, const Sums& sums) {
+  sums.for_each([&](const Described& number, const auto& value) {
+    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>) {
+      to[number.name] = value;
+    } else {
+      to[number.name] = py::array_t<double>(static_cast<py::ssize_t>(value.size()), value.data());
+    }
+  });
+}
+
+template <class Sums>
+py::dict numbers_of(const Sums& sums) {
+  py::dict out;
+  add_numbers(out, sums);
+  return out;
+}
+
+}  // namespace
+
 py::dict Run::totals() {
   Totals totals;
   work([&] { totals = run_->simulation().totals(); });
@@ -290,11 +312,7 @@ py::list Run::species_totals() {
   const Composition& composition = run_->simulation().composition();
   py::list out;
   for (std::size_t index = 0; index < totals.size(); ++index) {
-    py::dict sums;
-    sums["count"] = totals[index].count;
-    sums["t_tr"] = totals[index].t_tr;
-    sums["t_rot"] = totals[index].t_rot;
-    out.append(py::make_tuple(text(composition[index].name), sums));
+    out.append(py::make_tuple(text(composition[index].name), numbers_of(totals[index])));
   }
   return out;
 }
@@ -319,10 +337,7 @@ py::list Run::wall_totals() {
     py::dict sums;
     sums["axis"] = text(axis_name(wall));
     sums["side"] = text(side_name(wall));
-    sums["hits"] = wall.hits;
-    sums["impulse"] = wall.impulse;
-    sums["pressure"] = wall.pressure(run_->simulation().time());
-    sums["phase"] = wall.phase;
+    add_numbers(sums, wall);
     out.append(sums);
   }
   return out;
@@ -330,11 +345,8 @@ py::list Run::wall_totals() {
 
 py::dict Run::rod_totals() {
   require_idle();
-  const runs::RodTotals rods = runs::rod_totals(run_->scene(), run_->simulation());
-  py::dict out;
-  out["packing_fraction"] = rods.packing_fraction;
-  out["virial"] = rods.virial;
-  out["pressure"] = rods.pressure;
+  const observe::RodTotals rods = runs::rod_totals(run_->scene(), run_->simulation());
+  py::dict out = numbers_of(rods);
   out["pressure_meaning"] = rods.pressure_meaning;
   return out;
 }
@@ -342,29 +354,12 @@ py::dict Run::rod_totals() {
 py::object Run::sliding_contacts() {
   require_idle();
   const auto contacts = run_->simulation().sliding_contacts();
-  if (!contacts) return py::none();
-  py::dict out;
-  out["entered"] = contacts->entered;
-  out["ended_by_force"] = contacts->ended_by_force;
-  out["ended_by_tip"] = contacts->ended_by_tip;
-  out["ended_by_strike"] = contacts->ended_by_strike;
-  out["crowded"] = contacts->crowded;
-  out["time"] = contacts->time;
-  out["share"] = runs::contact_share(run_->simulation(), *contacts);
-  return out;
+  return contacts ? py::object(numbers_of(*contacts)) : py::none();
 }
 
 py::dict Run::energy_budget() {
   require_idle();
-  py::dict out;
-  run_->simulation().energy_budget().for_each([&](const char* name, const auto& energy) {
-    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(energy)>>) {
-      out[text(name)] = energy;
-    } else {
-      out[text(name)] = py::array_t<double>(static_cast<py::ssize_t>(energy.size()), energy.data());
-    }
-  });
-  return out;
+  return numbers_of(run_->simulation().energy_budget());
 }
 
 py::dict Run::counters() {

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "src/serve/arrays.h"
+#include "src/json/base64.h"
 
 namespace needlework::report {
 
@@ -33,7 +33,7 @@ Json Arrays::add_bytes(const char* type, std::span<const std::byte> bytes,
                        const std::vector<std::size_t>& shape) {
   const std::size_t number = blocks_.size();
   blocks_.push_back(fmt::format("<script type=\"text/plain\" id=\"array-{}\">{}</script>\n", number,
-                                serve::base64_of(bytes)));
+                                json::base64_of(bytes)));
   return {{"array", number}, {"type", type}, {"shape", shape}};
 }
 

@@ -7,7 +7,7 @@
 
 #include "needlework/error.h"
 #include "src/io/formats/input_text.h"
-#include "src/serve/shallow_json.h"
+#include "src/json/shallow_json.h"
 
 namespace needlework::report {
 
@@ -88,7 +88,7 @@ Json section_of(const Json& results) {
 
 Json bench_section(const std::string& path) {
   try {
-    Json out = section_of(serve::parse_shallow<Json>(io::read_text_file(path, most_bytes)));
+    Json out = section_of(json::parse_shallow<Json>(io::read_text_file(path, most_bytes)));
     out["file"] = path;
     return out;
   } catch (const InputError& error) {

@@ -4,7 +4,7 @@
 
 namespace needlework::runs {
 
-RodTotals rod_totals(const Scene& scene, const Simulation& simulation) {
+observe::RodTotals rod_totals(const Scene& scene, const Simulation& simulation) {
   const auto& box = scene.needles.box;
   const double volume = box[0] * box[1] * box[2];
   const observe::Pressure pressure(scene);

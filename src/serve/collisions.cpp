@@ -5,9 +5,11 @@
 #include <cstring>
 #include <type_traits>
 
-#include "src/serve/arrays.h"
+#include "src/json/base64.h"
 
 namespace needlework::serve {
+
+using json::text_of;
 namespace {
 
 const Collision& event_of(const Collision& collision) { return collision; }

@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <string_view>
 
-#include "src/serve/arrays.h"
+#include "src/json/base64.h"
 
 namespace needlework::serve {
+
+using json::bytes_of;
+using json::rows_of;
 namespace {
 
 /// The value as messages quote it: a long one is cut off.

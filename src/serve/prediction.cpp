@@ -10,11 +10,13 @@
 
 #include "needlework/error.h"
 #include "needlework/predict.h"
+#include "src/json/base64.h"
 #include "src/scene/accuracy.h"
-#include "src/serve/arrays.h"
 #include "src/serve/fields.h"
 
 namespace needlework::serve {
+
+using json::text_of;
 namespace {
 
 constexpr std::array vector_fields = {"r1", "u1", "v1", "w1", "r2", "u2", "v2", "w2"};

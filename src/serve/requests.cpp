@@ -12,6 +12,9 @@
 
 #include "needlework/error.h"
 #include "needlework/parse.h"
+#include "src/json/base64.h"
+#include "src/json/results.h"
+#include "src/json/shallow_json.h"
 #include "src/runs/limits.h"
 #include "src/runs/load_checkpoint.h"
 #include "src/runs/output_path.h"
@@ -19,14 +22,15 @@
 #include "src/scene/adopt_state.h"
 #include "src/scene/confinement.h"
 #include "src/scene/printable.h"
-#include "src/serve/arrays.h"
 #include "src/serve/collisions.h"
 #include "src/serve/fields.h"
 #include "src/serve/prediction.h"
-#include "src/serve/shallow_json.h"
-#include "src/serve/species_json.h"
 
 namespace needlework::serve {
+
+using json::base64_of;
+using json::parse_shallow;
+using json::text_of;
 namespace {
 
 /// Infinity and NaN, which JSON does not have, become null.
@@ -46,11 +50,11 @@ Json summary_of(const runs::PreparedRun& run) {
               {"t_rot", number(totals.t_rot)},
               {"momentum", numbers(totals.momentum)},
               {"trajectory_hash", simulation.trajectory_hash()}};
-  if (!run.scene().species.empty()) add_species(answer, simulation);
-  if (simulation.composition().has_width()) add_rods(answer, run.scene(), simulation);
-  if (!run.scene().walls.empty()) add_walls(answer, simulation);
-  if (acts_on_single_needles(run.scene())) add_energy_budget(answer, simulation);
-  add_contacts(answer, simulation);
+  if (!run.scene().species.empty()) json::add_species(answer, simulation);
+  if (simulation.composition().has_width()) json::add_rods(answer, run.scene(), simulation);
+  if (!run.scene().walls.empty()) json::add_walls(answer, simulation);
+  if (acts_on_single_needles(run.scene())) json::add_energy_budget(answer, simulation);
+  json::add_contacts(answer, simulation);
   return answer;
 }
 

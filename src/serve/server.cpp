@@ -13,11 +13,13 @@
 #include <utility>
 
 #include "needlework/error.h"
+#include "src/json/shallow_json.h"
 #include "src/runs/failure.h"
 #include "src/serve/requests.h"
-#include "src/serve/shallow_json.h"
 
 namespace needlework::serve {
+
+using json::parse_shallow;
 namespace {
 
 Json error_of(const runs::Failure& failure) {

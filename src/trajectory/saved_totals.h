@@ -15,8 +15,8 @@ inline void transfer(Archive& archive, Totals& totals) {
 }
 
 inline void transfer(Archive& archive, WallTotals& wall) {
-  auto& [axis, high, hits, impulse, normal_impulse, area, phase] = wall;
-  archive(axis, high, hits, impulse, normal_impulse, area, phase);
+  archive(wall.axis, wall.high, wall.hits, wall.impulse, wall.normal_impulse, wall.area, wall.phase,
+          wall.energy, wall.pressure);
 }
 
 /// Whether these can be the totals of a gas of which this share turns, as far as can be seen from

@@ -61,7 +61,7 @@ TEST_F(RodsCommand, GivesTheirPressure) {
   EXPECT_NEAR(rods["pressure"].get<double>(), 80 * 2.34 / 216, 0.06);
   const double virial = rods["virial"].get<double>(), time = result["time"].get<double>();
   EXPECT_NEAR(rods["pressure"].get<double>(), (80 + virial / (3 * time)) / 216, 1e-9);
-  EXPECT_NE(run("run spheres.toml").out.find("packing fraction 0.19393, pressure "),
+  EXPECT_NE(run("run spheres.toml").out.find("packing fraction 0.19393, virial "),
             std::string::npos);
   const auto theory = json_of("theory spheres.toml --json")["rods"];
   EXPECT_NEAR(theory["second_virial"].get<double>(), 2 * M_PI / 3, 1e-9);
@@ -90,7 +90,7 @@ TEST_F(RodsCommand, GivesThePressureOnWalls) {
   EXPECT_TRUE(none["pressure"].is_null());
   EXPECT_EQ(none["pressure_meaning"],
             "none: under gravity it depends on the height; walls have theirs");
-  EXPECT_NE(run("run slit.toml" + falling).out.find("pressure none: under gravity"),
+  EXPECT_NE(run("run slit.toml" + falling).out.find("pressure: none: under gravity"),
             std::string::npos);
   EXPECT_EQ(run("run slit.toml").out.find("T_rot"), std::string::npos);  // of spheres alone
 }

@@ -60,7 +60,7 @@ std::vector<NamedBudgetScene> budget_scenes() {
 
 double sum_of(const EnergyBudget& budget) {
   double sum = 0;
-  budget.for_each([&](const char*, const auto& energy) {
+  budget.for_each([&](const Described&, const auto& energy) {
     if constexpr (std::is_arithmetic_v<std::decay_t<decltype(energy)>>) {
       sum += energy;
     } else {
@@ -72,7 +72,7 @@ double sum_of(const EnergyBudget& budget) {
 
 std::vector<double> numbers_of(const EnergyBudget& budget) {
   std::vector<double> out;
-  budget.for_each([&](const char*, const auto& energy) {
+  budget.for_each([&](const Described&, const auto& energy) {
     if constexpr (std::is_arithmetic_v<std::decay_t<decltype(energy)>>) {
       out.push_back(energy);
     } else {

@@ -5,8 +5,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "src/json/shallow_json.h"
 #include "src/serve/server.h"
-#include "src/serve/shallow_json.h"
 #include "tests/fuzz/target.h"
 
 using namespace needlework;
@@ -37,7 +37,7 @@ bool is_tame_line(const std::string& line) {
   // A pair that turns for long may take a second.
   if (line.size() > 500 && line.find("predict") != line.npos) return false;
   try {
-    return is_tame(serve::parse_shallow<Json>(line));
+    return is_tame(json::parse_shallow<Json>(line));
   } catch (const std::runtime_error&) {
     return true;
   } catch (const Json::exception&) {

@@ -28,7 +28,7 @@ LAYERS = [
     Layer("kernels", ["kernels"], ["accuracy.h"], ["base", "memory"]),
     Layer("theory", ["src/theory"], ["theory.h", "diffusion.h"], ["base", "composition"]),
     Layer("trajectory", ["src/trajectory"],
-          ["collision.h", "happening.h", "totals.h", "series.h", "counters.h", "stop.h"],
+          ["collision.h", "happening.h", "described.h", "totals.h", "series.h", "counters.h", "stop.h"],
           ["base", "archive", "kernels"]),
     Layer("physics", ["src/physics"], ["predict.h"],
           ["base", "memory", "archive", "composition", "kernels"]),
@@ -58,17 +58,19 @@ LAYERS = [
            "calendar", "observe", "io"],
           ["theory", "engine"]),
     Layer("picture", ["src/picture"], [], ["base", "scene"]),
+    Layer("json", ["src/json"], [], ["base", "composition", "observe", "runs"],
+          ["scene", "trajectory", "engine"]),
     # Front ends for other programs: C, Python, a pipe.
     Layer("bindings", ["src/c", "src/python", "src/serve"], ["needlework.h"],
-          ["base", "machine", "composition", "kernels", "scene", "runs"],
+          ["base", "machine", "composition", "kernels", "scene", "observe", "runs", "json"],
           ["theory", "trajectory", "physics", "engine", "io"]),
     # Pages for browsers; their arrays are in base64, as those over a pipe are.
     Layer("report", ["src/report"], [],
-          ["base", "composition", "scene", "io", "picture", "bindings"], ["theory"]),
+          ["base", "composition", "scene", "io", "picture", "json"], ["theory"]),
     # `needlework bench` is a command of the program, and measures the engine from within.
     Layer("program", ["src/cli", "bench/strategies"], [],
           ["base", "machine", "composition", "scene", "search", "calendar", "observe", "io", "audit",
-           "runs", "picture", "bindings", "report"],
+           "runs", "picture", "json", "bindings", "report"],
           ["kernels", "theory", "trajectory", "physics", "boltzmann", "engine"]),
 ]
 FREE = ["bench", "tests"]  # may use anything; nothing else may use them
@@ -81,7 +83,7 @@ LIBRARIES = [
     (r"pugixml\.hpp", ["io", "picture"]),
     (r"png\.h", ["picture"]),
     (r"CLI/.*", ["program"]),
-    (r"nlohmann/.*", ["scene", "program", "bindings", "report"]),
+    (r"nlohmann/.*", ["scene", "program", "bindings", "json", "report"]),
     (r"mpi\.h", ["program"]),
     (r"pybind11/.*", ["bindings"]),
     (r"csignal|signal\.h", ["io", "program"]),

@@ -31,7 +31,7 @@ CASES = [
     ("src/io/a.cpp", "<hdf5.h>", None),
     ("src/runs/a.cpp", "<toml++/toml.h>", "only scene may include"),
     ("src/runs/a.cpp", "<CLI/CLI.hpp>", "only program may include"),
-    ("src/runs/a.cpp", "<nlohmann/json.hpp>", "only scene, program, bindings, report may include"),
+    ("src/runs/a.cpp", "<nlohmann/json.hpp>", "only scene, program, bindings, json, report may include"),
     ("src/runs/a.cpp", "<csignal>", "only io, program may include"),
     ("include/needlework/scene.h", "<vector>", None),
     ("include/needlework/scene.h", "<fmt/format.h>", "public headers include the standard"),

@@ -211,10 +211,10 @@ TEST(WallSums, HaveThePressureBetweenSamples) {
     sums.walls[0].normal_impulse = impulse;
     sums.walls[0].phase = 1.5;
     const auto row = observation.sample({}, totals, sums);
-    // Hits, impulse, pressure, phase; energies from pairs, from the wall and from callers.
+    // Hits, impulse, phase, pressure; energies from pairs, from the wall and from callers.
     EXPECT_EQ(row.size(), 7u);
-    EXPECT_EQ(row[3], 1.5);
-    return row[2];
+    EXPECT_EQ(row[2], 1.5);
+    return row[3];
   };
   Observation observation(scene), other(scene);
   EXPECT_TRUE(std::isnan(pressure_at(observation, 0, 0)));

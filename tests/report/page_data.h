@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "src/serve/arrays.h"
+#include "src/json/base64.h"
 
 namespace needlework::test {
 
@@ -37,7 +37,7 @@ class PageData {
   /// The numbers of an array that JSON refers to.
   template <class Number>
   std::vector<Number> numbers(const nlohmann::json& reference) const {
-    const auto bytes = serve::bytes_of(block("array-" + reference.at("array").dump()));
+    const auto bytes = json::bytes_of(block("array-" + reference.at("array").dump()));
     std::vector<Number> values(bytes.size() / sizeof(Number));
     std::memcpy(values.data(), bytes.data(), bytes.size());
     return values;

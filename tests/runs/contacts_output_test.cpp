@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "src/io/contents.h"
-#include "src/runs/contact_share.h"
 #include "src/runs/prepared_run.h"
 #include "tests/runs/silent.h"
 #include "tests/support/runs.h"
@@ -43,13 +42,9 @@ TEST(ContactsOutput, RowsAndSeriesAreThoseOfTheCounts) {
   const auto last = [&](const std::string& name) {
     return contents.numbers("/series/contacts/" + name + "/value").back();
   };
-  EXPECT_EQ(last("entered"), counted.entered);
-  EXPECT_EQ(last("ended_by_force"), counted.ended_by_force);
-  EXPECT_EQ(last("ended_by_tip"), counted.ended_by_tip);
-  EXPECT_EQ(last("ended_by_strike"), counted.ended_by_strike);
-  EXPECT_EQ(last("crowded"), counted.crowded);
-  EXPECT_EQ(last("time"), counted.time);
-  EXPECT_EQ(last("share"), contact_share(run.simulation(), counted));
+  counted.for_each([&](const Described& number, const auto& value) {
+    EXPECT_EQ(last(number.name), static_cast<double>(value)) << number.name;
+  });
   EXPECT_EQ(last("share"), 2 * counted.time / (150 * 3.0));
   EXPECT_TRUE(std::isnan(contents.numbers("/series/contacts/share/value").front()));
   // A dataset of that name is not the time of the samples.

@@ -10,12 +10,16 @@
 #include <vector>
 
 #include "needlework/predict.h"
-#include "src/serve/arrays.h"
+#include "src/json/base64.h"
 #include "src/serve/server.h"
 
 namespace needlework::serve {
 namespace {
 
+using json::base64_of;
+using json::bytes_of;
+using json::rows_of;
+using json::text_of;
 using Json = nlohmann::ordered_json;
 using Vectors = std::vector<std::array<double, 3>>;
 

@@ -13,13 +13,17 @@
 #include "needlework/h5md.h"
 #include "needlework/parse.h"
 #include "needlework/simulation.h"
-#include "src/serve/arrays.h"
+#include "src/json/base64.h"
 #include "src/serve/server.h"
 #include "tests/support/temporary_folder.h"
 
 namespace needlework::serve {
 namespace {
 
+using json::base64_of;
+using json::bytes_of;
+using json::rows_of;
+using json::text_of;
 using Json = nlohmann::ordered_json;
 
 const std::string scene_text =

@@ -7,7 +7,7 @@
 
 #include "needlework/error.h"
 
-namespace needlework::serve {
+namespace needlework::json {
 
 /// Greatest depth that is read.
 inline constexpr int most_levels = 100;
@@ -24,4 +24,4 @@ Json parse_shallow(Input&& input) {
   return Json::parse(std::forward<Input>(input), within_depth);
 }
 
-}  // namespace needlework::serve
+}  // namespace needlework::json

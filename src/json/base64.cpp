@@ -1,4 +1,4 @@
-#include "src/serve/arrays.h"
+#include "src/json/base64.h"
 
 #include <bit>
 #include <boost/archive/iterators/base64_from_binary.hpp>
@@ -6,7 +6,7 @@
 #include <boost/archive/iterators/dataflow_exception.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
 
-namespace needlework::serve {
+namespace needlework::json {
 namespace {
 
 namespace iterators = boost::archive::iterators;
@@ -47,4 +47,4 @@ std::vector<std::byte> bytes_of(std::string_view base64) {
   }
 }
 
-}  // namespace needlework::serve
+}  // namespace needlework::json

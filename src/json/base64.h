@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace needlework::serve {
+namespace needlework::json {
 
 std::string base64_of(std::span<const std::byte> bytes);
 /// Throws std::invalid_argument if the text is not base64.
@@ -33,4 +33,4 @@ std::vector<Row> rows_of(std::string_view base64, std::string_view row) {
   return rows;
 }
 
-}  // namespace needlework::serve
+}  // namespace needlework::json

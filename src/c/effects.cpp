@@ -1,0 +1,45 @@
+// What C callers learn of effects: walls, contacts, and where the energy has come from.
+#include <string>
+
+#include "src/c/handle.h"
+#include "src/c/numbers.h"
+
+using namespace needlework;
+
+size_t needlework_wall_count(needlework_simulation* simulation) {
+  size_t count = 0;
+  c::guarded(simulation, [&](needlework_simulation& self) {
+    count = self.run.simulation().wall_totals().size();
+  });
+  return count;
+}
+
+int needlework_get_wall(needlework_simulation* simulation, size_t index, needlework_wall* wall) {
+  return c::guarded(simulation, [&](needlework_simulation& self) {
+    c::require(wall, "wall");
+    const auto walls = self.run.simulation().wall_totals();
+    if (index >= walls.size()) {
+      throw c::UsageError("index = " + std::to_string(index) + ": expected that of one of " +
+                          std::to_string(walls.size()) + " walls");
+    }
+    *wall = {.axis = walls[index].axis, .high = walls[index].high};
+    c::copy_numbers(walls[index], *wall, &needlework_wall::hits);
+  });
+}
+
+int needlework_get_contacts(needlework_simulation* simulation, needlework_contacts* contacts) {
+  return c::guarded(simulation, [&](needlework_simulation& self) {
+    c::require(contacts, "contacts");
+    const auto counted = self.run.simulation().sliding_contacts();
+    c::copy_numbers(counted.value_or(SlidingContacts{}), *contacts, &needlework_contacts::entered);
+  });
+}
+
+int needlework_get_energy_budget(needlework_simulation* simulation,
+                                 needlework_energy_budget* budget) {
+  return c::guarded(simulation, [&](needlework_simulation& self) {
+    c::require(budget, "budget");
+    c::copy_numbers(self.run.simulation().energy_budget().complete(), *budget,
+                    &needlework_energy_budget::pairs);
+  });
+}

@@ -1,0 +1,29 @@
+// The kinds of results that a run has, for whoever has all of them to say.
+#pragma once
+
+#include "needlework/totals.h"
+#include "src/observe/rod_totals.h"
+
+namespace needlework::runs {
+
+/// A kind of result by its key in JSON.
+struct ResultKind {
+  const char* key;
+  const char* meaning;
+};
+
+/// Calls visit(kind, sums) for each kind, with sums that have all their numbers.
+template <class Visit>
+void for_each_result(Visit&& visit) {
+  visit(ResultKind{"species", "Needles of one species at one instant"}, SpeciesTotals{});
+  visit(ResultKind{"rods", "Room and pressure of rods of finite width"}, observe::RodTotals{});
+  visit(ResultKind{"walls", "Hits on one wall since the start"}, WallTotals{});
+  visit(ResultKind{"contacts", "Contacts of needles that slide on each other, since the start"},
+        SlidingContacts{});
+  visit(ResultKind{"energy_budget",
+                   "What each effect has put into the energy per needle since the start; negative: "
+                   "taken out. The sum is the change of the energy, up to rounding"},
+        EnergyBudget{}.complete());
+}
+
+}  // namespace needlework::runs
