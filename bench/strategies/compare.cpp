@@ -60,12 +60,13 @@ Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 }  // namespace
 
 const char* const rule_of_verdicts =
-    "A case is judged by its cost over that of the baseline in the same repetition, whatever the "
-    "speed of the machine. The change is the median of new over old relative costs over all pairs "
-    "of repetitions, with the interval of 95 % of Mann and Whitney's rank test. same: the interval "
-    "lies within 3 % of no change. faster, slower: else, it lies on one side of it. unclear: else, "
-    "or with too few repetitions, such as three before and four now. The baseline is not judged. "
-    "Results whose cases all differ in one setting are judged by their times themselves.";
+    "A case is judged by its cost over that of the baseline in the same repetition. The change is "
+    "the median of new over old relative costs over all pairs of repetitions, with the interval of "
+    "95 % of Mann and Whitney's rank test. same: the interval lies within 3 % of no change. "
+    "faster, "
+    "slower: else, it lies on one side of it. unclear: else, or with too few repetitions, such as "
+    "three and four. Results whose cases all differ in one setting are judged by their times "
+    "themselves.";
 
 Change change_between(const std::vector<double>& before, const std::vector<double>& after) {
   std::vector<double> differences;

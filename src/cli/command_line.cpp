@@ -259,11 +259,11 @@ standard output; progress, warnings and errors to standard error.
 
 Exit codes:
   0   done
-  1   differences were found (audit, bench --compare, replay)
+  1   differences found (audit, bench --compare, replay)
   2   wrong usage
-  3   a scene or an input file that cannot be used
+  3   a scene or input file that cannot be used
   4   the state of a run became invalid
-  5   a file that cannot be read or written, or a package that is missing (reproduce)
+  5   a file that cannot be read or written, or a missing package (reproduce)
   75  stopped by a signal or a time limit, after saving if there is a file
 
 Environment:

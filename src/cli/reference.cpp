@@ -144,7 +144,7 @@ std::string markdown_details(const CommandHelp& command) {
         out += "\n" + piece.text + ":\n";
         break;
       case Piece::Kind::verbatim:
-        out += "\n```text\n" + piece.text + "\n```\n";
+        out += "\n    " + replaced(piece.text, "\n", "\n    ") + "\n";
         break;
     }
   }

@@ -166,8 +166,8 @@ void add_reproduce_command(CLI::App& app, int& exit_code) {
 The paper is "Granular cooling of hard needles" by Huthmann, Aspelmeier and
 Zippelius. Writes data (CSV) and a picture (SVG) of each figure, and compares
 each claim with the measurement: it agrees within three standard errors plus the
-paper's precision, differs, or is open. Finished runs are used again, so that the
-same command continues after an interruption.
+paper's precision, differs, or is open. The same command continues after an
+interruption.
 
 Needs Python with NumPy, h5py and Matplotlib: that of the build, or the one that
 NEEDLEWORK_PYTHON names.
