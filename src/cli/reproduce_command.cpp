@@ -17,14 +17,15 @@ const std::vector<Group>& groups() {
   static const std::vector<Group> all{
       {"of the paper", {"2", "3", "4", "5a", "5b", "6", "7", "8"}},
       {"of its text", {"fluctuations", "moment", "rotation", "relaxation"}},
+      {"rough needles", {"rough"}},
+      {"larger systems", {"sizes", "dense-large", "dense-film", "clusters"}},
       {"why they differ", {"cells", "tc-dilute", "tc-dense", "sliding-dilute", "sliding-dense"}},
       {"why theory is off",
        {"boltzmann-relaxation", "boltzmann-cooling", "boltzmann-ratio", "encounters"}},
-      {"larger systems", {"sizes", "dense-large", "dense-film", "clusters"}},
-      {"other collisions", {"rough", "sliding"}},
       {"driven", {"kicked", "vibrated"}},
       {"between walls", {"walls", "sedimentation", "settling"}},
       {"rods", {"rods", "rods-flow", "nematic"}},
+      {"sliding contact", {"sliding"}},
       {"liquid", {"liquid", "liquid-correlations"}}};
   return all;
 }
