@@ -60,16 +60,13 @@ Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 }  // namespace
 
 const char* const rule_of_verdicts =
-    "A case is judged by its cost over that of the baseline in the same repetition, so that a "
-    "machine that has become slower as a whole changes nothing. The change is the quotient of new "
-    "and old relative costs, the median over all pairs of repetitions; its interval of 95 % is "
-    "that of the rank test of Mann and Whitney. same: the interval lies within 3 % of no change. "
-    "faster, slower: else, it lies on one side of no change. unclear: else, or with too few "
-    "repetitions for such an interval, as three and four are. The baseline itself is not judged; a "
-    "change of code that it shares, such as the prediction of contacts, shows in its own time "
-    "only. Results whose cases all differ in one setting, such as the accuracy, are judged by "
-    "their "
-    "times themselves.";
+    "A case is judged by its cost over that of the baseline in the same repetition. The change is "
+    "the median of new over old relative costs over all pairs of repetitions, with the interval of "
+    "95 % of Mann and Whitney's rank test. same: the interval lies within 3 % of no change. "
+    "faster, "
+    "slower: else, it lies on one side of it. unclear: else, or with too few repetitions, such as "
+    "three and four. Results whose cases all differ in one setting are judged by their times "
+    "themselves.";
 
 Change change_between(const std::vector<double>& before, const std::vector<double>& after) {
   std::vector<double> differences;

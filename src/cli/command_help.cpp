@@ -9,6 +9,7 @@ bool OptionHelp::is_named(std::string_view name) const {
 }
 
 std::string description_of(const OptionHelp& option) {
+  if (option.is_required && !option.is_positional) return option.description + " (required)";
   if (option.default_value.empty()) return option.description;
   return option.description + " (default: " + option.default_value + ")";
 }

@@ -12,13 +12,14 @@ struct OptionHelp {
   std::vector<std::string> names;  ///< such as "-h" and "--help"; of a positional, its only name
   std::string value;  ///< what stands for it, such as "FILE.h5", "fast|standard"; none for a flag
   std::string description;
-  std::string default_value;  ///< empty if there is none
+  std::string default_value;         ///< empty if there is none
+  std::vector<std::string> choices;  ///< all words that may be given, if `value` does not name them
   bool is_positional = false, is_required = false;
 
   bool is_named(std::string_view name) const;
 };
 
-/// With the default, if there is one.
+/// With the default, if there is one, and whether it has to be given.
 std::string description_of(const OptionHelp& option);
 
 struct CommandHelp {

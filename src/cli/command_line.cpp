@@ -37,9 +37,8 @@ namespace {
 void add_serve_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("serve", "simulate for a front end over a pipe");
   command->footer(R"(Reads requests from standard input and answers on standard output, both as one
-JSON object a line: create, advance, run_until, totals, state, velocities,
-close, interrupt, quit. Ends after quit, or at the end of its input when all
-requests are answered. docs/serve.md describes the requests.
+JSON object a line, until quit or the end of the input. docs/serve.md describes
+the requests.
 
 Example:
   echo '{"do": "create", "path": "profiles/quickstart.toml"}' | needlework serve)");
@@ -54,12 +53,10 @@ Example:
 // A scene in place of a subset, and what is to be compared on it.
 void add_own_scene(CLI::App& command, CLI::Option& subset, bench::OwnScene& own) {
   CLI::Option* scene =
-      command.add_option("--scene", own.file, "measure this scene instead of a subset")
+      command.add_option("--scene", own.file, "measure this scene in place of SUBSET")
           ->option_text("SCENE.toml")
           ->excludes(&subset);
-  command
-      .add_option("--set", own.overrides,
-                  "replace a key of that scene, such as needles.count=500; may be repeated")
+  command.add_option("--set", own.overrides, "replace a key of that scene; repeatable")
       ->option_text("SECTION.KEY=VALUE")
       ->allow_extra_args(false)
       ->needs(scene);
@@ -71,21 +68,20 @@ void add_own_scene(CLI::App& command, CLI::Option& subset, bench::OwnScene& own)
         ->allow_extra_args(false)
         ->needs(scene);
   };
-  add_list("--searches", own.searches,
-           "searches to compare with what the scene says, which is the baseline; where nothing is "
-           "to be compared, linked-cells and capsules",
-           "NAME,...");
-  add_list("--queues", own.calendars, "calendars to compare", "NAME,...");
-  add_list("--accuracy", own.accuracies, "levels of accuracy to compare", "LEVEL,...");
-  add_list("--isa", own.isas, "instruction sets to compare", "NAME,...");
+  add_list(
+      "--searches", own.searches,
+      "values of engine.search to compare with the scene as it is, the baseline; where nothing "
+      "is to be compared, linked-cells and capsules",
+      "NAME,...");
+  add_list("--queues", own.calendars, "values of engine.queue to compare", "NAME,...");
+  add_list("--accuracy", own.accuracies, "values of engine.accuracy to compare", "LEVEL,...");
+  add_list("--isa", own.isas, "values of engine.isa to compare", "NAME,...");
   add_list("--threads", own.threads,
-           "numbers of threads to compare; then times are wall times, not CPU times", "N,...");
-  add_list("--cell-sides", own.cell_sides, "sides of the cells of linked-cells to compare",
+           "values of engine.threads to compare, by wall time instead of CPU time", "N,...");
+  add_list("--cell-sides", own.cell_sides, "values of engine.cell_side to compare", "LENGTH,...");
+  add_list("--capsule-radii", own.capsule_radii, "values of engine.capsule_radius to compare",
            "LENGTH,...");
-  add_list("--capsule-radii", own.capsule_radii, "radii of capsules to compare", "LENGTH,...");
-  command
-      .add_option("--vary", own.settings,
-                  "compare the scene with the one that has this value of a key; may be repeated")
+  command.add_option("--vary", own.settings, "compare with this value of any key; repeatable")
       ->option_text("SECTION.KEY=VALUE")
       ->allow_extra_args(false)
       ->needs(scene);
@@ -93,48 +89,47 @@ void add_own_scene(CLI::App& command, CLI::Option& subset, bench::OwnScene& own)
 
 void add_bench_command(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<BenchArguments>();
-  CLI::App* command = app.add_subcommand(
-      "bench", "measure searches, calendars, accuracies and other settings on the same scenes");
-  CLI::Option* subset = command
-                            ->add_option("SUBSET", arguments->subset,
-                                         "what to measure, by default quick; --list describes all")
-                            ->option_text(names_of_subsets());
-  command->add_flag("--list", arguments->list, "list all subsets and their cases, measure nothing");
+  CLI::App* command = app.add_subcommand("bench", "measure the speed of searches, queues and more");
+  CLI::Option* subset =
+      command
+          ->add_option("SUBSET", arguments->subset,
+                       "what to measure: one of the names that --list prints with their "
+                       "cases")
+          ->type_name(names_of_subsets())
+          ->capture_default_str();
+  command->add_flag("--list", arguments->list, "list the names of SUBSET, measure nothing");
   add_own_scene(*command, *subset, arguments->own);
   command
       ->add_option("--repetitions", arguments->repetitions,
-                   "how often all cases are measured in turn; 6 or more give intervals of 95 %")
+                   "how often all cases are measured in turn; from 6 on with intervals of 95 %")
       ->option_text("N")
       ->check(number_in(1, 1000))
       ->capture_default_str();
   command
       ->add_option("--min-time", arguments->min_time,
-                   "least CPU time of a case in each repetition [s], from 0 to 3600")
+                   "least CPU time of a case in each repetition [s]")
       ->option_text("S")
       ->check(number_in(0.0, 3600.0))
       ->capture_default_str();
   command
       ->add_option(
           "--json", arguments->json_file,
-          "print all that was measured as one JSON object; or print the table, and write to "
-          "a file what --compare and --results need")
+          "print the measurements as one JSON object, or write them to a file for --compare and "
+          "--results, and print the table")
       ->expected(0, 1)
       ->option_text("[FILE.json]");
-  command
-      ->add_option("--csv", arguments->csv_file,
-                   "write a table to a file: a line for each case, a field for each part of its "
-                   "name")
+  command->add_option("--csv", arguments->csv_file, "write a table with a line for each case")
       ->option_text("FILE.csv");
   command
       ->add_option("--compare", arguments->compare,
-                   "older results, which --json has written to a file, to compare with")
+                   "compare with older results, a file that --json has written")
       ->option_text("OLD.json");
   command
       ->add_option("--results", arguments->results,
-                   "take the results from a file that --json has written, and measure nothing")
+                   "measure nothing, take results from a file that --json has written")
       ->option_text("FILE.json");
   command->add_flag("--quiet", arguments->quiet, "no progress");
-  command->add_flag("--force", arguments->force, "replace an existing file");
+  add_force(*command, arguments->force);
   command->footer(filled(help_on_verdicts()));
   command->callback([arguments, command, &exit_code] {
     arguments->json = command->count("--json") > 0;
@@ -184,6 +179,12 @@ OptionHelp help_of(const CLI::Option& option) {
   help.description = option.get_description();
   help.default_value = option.get_default_str();
   help.is_required = option.get_required();
+  // The description of one_of(), or a type that names all values.
+  const std::string type = option.get_type_name(), words = type.substr(type.rfind(':') + 1);
+  if (words.find('|') != words.npos) {
+    std::istringstream list(words);
+    for (std::string word; std::getline(list, word, '|');) help.choices.push_back(word);
+  }
   return help;
 }
 
@@ -208,7 +209,7 @@ void add_help_command(CLI::App& app, int& exit_code) {
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
   const auto name = std::make_shared<std::string>();
   help->add_option("COMMAND", *name, "one of the commands")
-      ->option_text(fmt::format("{}", fmt::join(names, "|")));
+      ->type_name(fmt::format("{}", fmt::join(names, "|")));
   help->callback([&app, name, &exit_code] {
     const ProgramHelp program = help_of(app);
     if (!name->empty() && !program.find_command(*name)) {
@@ -222,42 +223,47 @@ void add_help_command(CLI::App& app, int& exit_code) {
   });
 }
 
-// Shows defaults beside descriptions, also where a text stands for the value.
+// Shows defaults beside descriptions, in lines of at most 78 characters. What the parser would add
+// to names, such as the options that exclude each other, is in the descriptions.
 class HelpFormatter : public CLI::Formatter {
  public:
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const std::string& text = option->get_option_text();
+    return text.empty() ? "" : " " + text;
+  }
   std::string make_option_desc(const CLI::Option* option) const override {
-    return description_of(help_of(*option));
+    return filled(description_of(help_of(*option)), 78 - column_width_);
   }
 };
 
 void add_commands(CLI::App& app, int& exit_code) {
   const auto formatter = std::make_shared<HelpFormatter>();
   formatter->column_width(28);
-  formatter->label("TEXT", "");
-  formatter->label("REQUIRED", "(required)");
+  formatter->label("SUBCOMMAND", "COMMAND");
+  formatter->label("Positionals", "Arguments");
+  formatter->label("POSITIONALS", "Arguments");  // the parser's later versions
   app.formatter(formatter);
   app.set_help_flag("-h,--help", "show this help");
   app.require_subcommand(1);
-  app.set_version_flag("-v,--version", version_text,
-                       "show version, compiler, CPU, libraries, and whether MPI and Python are in "
-                       "the build");
+  app.set_version_flag("-v,--version", version_text, "show version, compiler, CPU and libraries");
   add_run_commands(app, exit_code);
   add_file_commands(app, exit_code);
   add_serve_command(app, exit_code);
   add_bench_command(app, exit_code);
   add_help_command(app, exit_code);
+  for (CLI::App* command : app.get_subcommands({})) command->group("Commands");
   // Set last, because commands added later would inherit it.
-  app.footer(R"(needlework COMMAND --help shows the arguments and options of a command.
-Results are printed on standard output; progress, warnings and errors on
-standard error.
+  app.footer(
+      R"(needlework COMMAND --help shows its arguments and options. Results go to
+standard output; progress, warnings and errors to standard error.
 
 Exit codes:
   0   done
-  1   differences were found (audit, bench --compare, replay)
+  1   differences found (audit, bench --compare, replay)
   2   wrong usage
-  3   a scene or an input file that cannot be used
+  3   a scene or input file that cannot be used
   4   the state of a run became invalid
-  5   a file that cannot be read or written, or a package that is missing (reproduce)
+  5   a file that cannot be read or written, or a missing package (reproduce)
   75  stopped by a signal or a time limit, after saving if there is a file
 
 Environment:

@@ -38,6 +38,7 @@ bool is_repeated(const OptionHelp& option) { return option.value.ends_with(repet
 
 // By the text that stands for the value, such as "fast|standard" or "[FILE.json]".
 Values values_of(const OptionHelp& option) {
+  if (!option.choices.empty()) return {Values::Kind::words, option.choices, {}};
   std::string text = option.value;
   if (text.starts_with('[') && text.ends_with(']')) text = text.substr(1, text.size() - 2);
   if (is_repeated(option)) text.resize(text.size() - repetition.size());

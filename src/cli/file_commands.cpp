@@ -37,23 +37,24 @@ CLI::Validator frame_choice(bool all) {
 }
 
 void add_import_command(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "import", "make a scene and a state of a configuration of another program");
+  CLI::App* command = app.add_subcommand("import", "make a scene and a state from a foreign file");
   const auto arguments = std::make_shared<ImportArguments>();
   command
       ->add_option("FILE", arguments->from,
-                   "configuration of DynamO, extended XYZ, or dump or data file of LAMMPS, also "
-                   "compressed with bzip2 or gzip")
+                   "configuration of DynamO, extended XYZ, dump or data file of LAMMPS, also with "
+                   ".bz2 or .gz")
       ->required();
   command->add_option("--out", arguments->folder, "folder for scene.toml and state.h5")
       ->option_text("DIR")
       ->required();
-  command->add_option("--frame", arguments->frame, "first, last or a number from 0; last if absent")
+  command->add_option("--frame", arguments->frame, "which frame, counted from 0 (default: last)")
+      ->option_text("N|first|last")
       ->check(frame_choice(false));
-  command->add_flag("--force", arguments->force, "replace existing files");
-  command->footer(R"(Nothing is rescaled. What needles do not have, such as other interactions,
-is an error that names its place. Of several frames the last is taken unless --frame
-says which. The end of the run is not in such a file: choose one in [until] of scene.toml.
+  add_force(*command, arguments->force);
+  command->footer(
+      R"(Nothing is rescaled. What needles do not have is an error that names its place.
+Such files have no end of the run: set one in [until] of scene.toml.
+docs/formats.md describes all formats.
 
 Examples:
   needlework import config.xml.bz2 --out lines
@@ -63,9 +64,9 @@ Examples:
 
 void add_export_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
-      app.add_subcommand("export", "write frames of an H5MD file in the format of another program");
+      app.add_subcommand("export", "write frames of an H5MD file for another program");
   const auto arguments = std::make_shared<ExportArguments>();
-  command->add_option("FILE.h5", arguments->from, "H5MD file to read")->required();
+  command->add_option("FILE.h5", arguments->from, "H5MD file")->required();
   command->add_option("OUT", arguments->to, "file to write; its ending is that of its format")
       ->option_text("FILE")
       ->required();
@@ -73,11 +74,11 @@ void add_export_command(CLI::App& app, int& exit_code) {
              names_of_export_formats());
   command
       ->add_option("--frame", arguments->frame,
-                   "which frames, counted from 0; by default all, or the last where a format holds "
-                   "one")
+                   "which frames, counted from 0 (default: all, or the last where a format holds "
+                   "one)")
       ->option_text("N|first|last|all")
       ->check(frame_choice(true));
-  command->add_flag("--force", arguments->force, "replace existing files");
+  add_force(*command, arguments->force);
   command->footer(R"(Formats:
   vtkhdf  .vtkhdf             one frame   ParaView and VTK
   pvd     .pvd                all frames  ParaView; one .vtu file for each in a folder beside it
@@ -95,18 +96,17 @@ Examples:
 }
 
 void add_report_command(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("report", "write runs, sweeps and benchmarks as one page for a browser");
+  CLI::App* command = app.add_subcommand("report", "show runs, sweeps and benchmarks in a browser");
   const auto request = std::make_shared<report::Request>();
   command
       ->add_option("FILES", request->files,
-                   "H5MD files of runs, summary.h5 of sweeps, results of benchmarks in JSON")
+                   "H5MD files of runs, summary.h5 of sweeps, results of bench --json")
       ->option_text("FILE...")
       ->required();
   command->add_option("-o,--out", request->out, "page to write")
       ->option_text("FILE.html")
       ->required();
-  command->add_option("--title", request->title, "title of the page, by default that of the run")
+  command->add_option("--title", request->title, "title of the page (default: that of the run)")
       ->option_text("TEXT");
   command->add_option("--needles", request->limits.needles, "most needles shown of a frame")
       ->option_text("N")
@@ -116,10 +116,10 @@ void add_report_command(CLI::App& app, int& exit_code) {
       ->option_text("N")
       ->check(number_in(1, 100000))
       ->capture_default_str();
-  command->add_flag("--force", request->force, "replace an existing page");
-  command->footer(R"(The page holds its data and needs no network: charts with a table behind each,
-and the needles of the frames in three dimensions. Of long runs it shows a part,
-and says so: at most 600000 needles in all frames together.
+  add_force(*command, request->force);
+  command->footer(
+      R"(The page holds its data and needs no network. Of all frames of a run it holds at
+most 600000 needles together. docs/report.md says what it shows.
 
 Examples:
   needlework report run.h5 -o run.html
@@ -128,12 +128,11 @@ Examples:
 }
 
 void add_view_command(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("view", "draw the needles of an H5MD file, without a display");
+  CLI::App* command = app.add_subcommand("view", "draw the needles of an H5MD file as PNG or SVG");
   const auto arguments = std::make_shared<ViewArguments>();
   picture::NeedlePicture& picture = arguments->picture;
-  command->add_option("FILE.h5", arguments->from, "H5MD file to read")->required();
-  command->add_option("-o,--out", arguments->to, "picture to write, PNG or SVG by its ending")
+  command->add_option("FILE.h5", arguments->from, "H5MD file")->required();
+  command->add_option("-o,--out", arguments->to, "picture to write")
       ->option_text("FILE.png|FILE.svg")
       ->required();
   command
@@ -142,51 +141,52 @@ void add_view_command(CLI::App& app, int& exit_code) {
       ->option_text("N|first|last|all")
       ->check(frame_choice(true))
       ->capture_default_str();
-  add_choice(
-      command->add_option("--colour,--color", picture.colour, "what the colours of needles show")
-          ->capture_default_str(),
-      picture::quantities());
+  command->add_option("--colour,--color", picture.colour, "what colours show: a name listed below")
+      ->option_text("NAME")
+      ->check(one_of(picture::quantities()))
+      ->capture_default_str();
   add_choice(command->add_option("--projection", arguments->projection, "how distance is shown")
                  ->capture_default_str(),
              {"perspective", "orthographic"});
   command
       ->add_option("--azimuth", picture.camera.azimuth,
-                   "where one looks from: degrees from the x axis towards the y axis")
+                   "direction of view: from the x axis towards the y axis")
       ->option_text("DEGREES")
       ->check(number_in(-360.0, 360.0))
       ->capture_default_str();
   command
       ->add_option("--elevation", picture.camera.elevation,
-                   "degrees above the plane of x and y, from -90 to 90")
+                   "direction of view: above the plane of x and y")
       ->option_text("DEGREES")
       ->check(number_in(-90.0, 90.0))
       ->capture_default_str();
   for (const auto& [name, size] :
        {std::pair{"--width", &picture.width}, {"--height", &picture.height}}) {
-    command->add_option(name, *size, "size of the picture in pixels, from 300 to 8000")
+    command->add_option(name, *size, "size of the picture, from 300 to 8000")
         ->option_text("PIXELS")
         ->check(number_in(300, 8000))
         ->capture_default_str();
   }
-  add_choice(command->add_option("--background", arguments->background, "colour of the ground")
+  add_choice(command->add_option("--background", arguments->background, "colour of the background")
                  ->capture_default_str(),
              {"dark", "light"});
-  command->add_flag("--force", arguments->force, "replace existing files");
-  command->footer(R"(Needles are drawn whole where they reach across a side of the periodic box,
-with their centres inside. Far ones are thinner and closer to the ground.
-Walls are lattices where one looks at them from inside, else outlines, at the
-place of that time. A side that is open has no edges, and the picture reaches to
-the needle that is farthest beyond it.
+  add_force(*command, arguments->force);
+  command->footer(
+      R"(Needles at a side of the periodic box are drawn whole, with centres inside. Walls
+are lattices where they are seen from inside, else outlines. An open side has no
+edges; the picture reaches to the needle farthest beyond it.
 
 Colours:
-  speed, spin  speed and angular speed, as multiples of the root mean square
-  vx, vy, vz   a component of the velocity, as a multiple of its root mean square
-  flow-x, ...  a component of the mean velocity of a needle and those in the ball
-               of density, in units of (T_tr / m)^1/2
-  alignment    3 cos^2 - 1 of the angle between needle and velocity
-  density      centres in a ball around the centre that holds 30 others in the
-               mean, as a multiple of that mean
-  none         all needles alike
+  speed, spin     over the root mean square
+  vx, vy, vz      component of the velocity, over its root mean square
+  flow-x, -y, -z  component of the mean velocity in the ball of density, over
+                  (T_tr / m)^1/2
+  alignment       3 cos^2 - 1 of the angle between needle and velocity
+  density         centres in a ball around the needle that holds 30 others in
+                  the mean, over that mean
+  species         index of the species, from 0
+  orientation     angle to the mean axis of all needles, in degrees
+  none            all needles alike
 
 Examples:
   needlework view run.h5 -o needles.png

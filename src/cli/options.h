@@ -37,13 +37,13 @@ CLI::Validator number_in(Number least, Number most) {
 /// The word auto, or what another check accepts.
 CLI::Validator auto_or(CLI::Validator check);
 
-/// One of these words.
+/// One of these words, which are its description, with | between them.
 CLI::Validator one_of(std::vector<std::string> words);
 /// Makes one of these words the value of an option.
 void add_choice(CLI::Option* option, const std::vector<std::string>& words);
 
-/// The words of a text in lines of at most 78 characters.
-std::string filled(const std::string& text);
+/// The words of a text in lines of at most `width` characters.
+std::string filled(const std::string& text, std::size_t width = 78);
 
 /// SCENE.toml and --set.
 void add_scene(CLI::App& command, std::string& path, std::vector<std::string>& overrides,
@@ -53,6 +53,10 @@ void add_isa(CLI::App& command, std::optional<std::string>& isa);
 void add_engine_options(CLI::App& command, EngineOptions& engine);
 /// All of these.
 void add_scene_arguments(CLI::App& command, SceneArguments& arguments);
+/// --json, --quiet and --force, as most commands have them.
+CLI::Option* add_json(CLI::App& command, bool& json);
+CLI::Option* add_quiet(CLI::App& command, bool& quiet);
+CLI::Option* add_force(CLI::App& command, bool& force);
 /// --log.
 void add_log(CLI::App& command, std::optional<std::string>& log);
 /// --progress-every.

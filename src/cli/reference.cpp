@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "needlework/error.h"
@@ -85,13 +86,51 @@ std::string troff_details(const CommandHelp& command, bool is_program) {
 
 std::string markdown_cell(const std::string& text) { return replaced(text, "|", "\\|"); }
 
-std::string markdown_options(const CommandHelp& command) {
+std::string markdown_table(const std::vector<OptionHelp>& options) {
+  if (options.empty()) return "";
   std::string out = "| argument | meaning |\n|---|---|\n";
-  for (const OptionHelp& option : listed_options(command)) {
+  for (const OptionHelp& option : options) {
     out += fmt::format("| `{}` | {} |\n", markdown_cell(synopsis(option)),
                        markdown_cell(description_of(option)));
   }
   return out;
+}
+
+bool are_same(const OptionHelp& a, const OptionHelp& b) {
+  return synopsis(a) == synopsis(b) && description_of(a) == description_of(b);
+}
+
+bool contains(const std::vector<OptionHelp>& options, const OptionHelp& option) {
+  return std::any_of(options.begin(), options.end(),
+                     [&](const OptionHelp& other) { return are_same(other, option); });
+}
+
+// Arguments that several commands have with the same meaning.
+std::vector<OptionHelp> common_arguments(const ProgramHelp& program) {
+  std::vector<OptionHelp> seen, common;
+  for (const CommandHelp& command : program.commands) {
+    for (const OptionHelp& option : listed_options(command)) {
+      if (contains(common, option)) continue;
+      (contains(seen, option) ? common : seen).push_back(option);
+    }
+  }
+  return common;
+}
+
+// Those of `common` are only named.
+std::string markdown_options(const CommandHelp& command, const std::vector<OptionHelp>& common) {
+  std::vector<OptionHelp> own;
+  std::string named;
+  for (const OptionHelp& option : listed_options(command)) {
+    if (contains(common, option)) {
+      named += fmt::format("{}`{}`", named.empty() ? "" : ", ", option.names[0]);
+    } else {
+      own.push_back(option);
+    }
+  }
+  const std::string table = markdown_table(own);
+  if (named.empty()) return table;
+  return table + (table.empty() ? "" : "\n") + "[Common](#common-arguments): " + named + ".\n";
 }
 
 std::string markdown_details(const CommandHelp& command) {
@@ -105,7 +144,7 @@ std::string markdown_details(const CommandHelp& command) {
         out += "\n" + piece.text + ":\n";
         break;
       case Piece::Kind::verbatim:
-        out += "\n```text\n" + piece.text + "\n```\n";
+        out += "\n    " + replaced(piece.text, "\n", "\n    ") + "\n";
         break;
     }
   }
@@ -165,11 +204,13 @@ std::string markdown(const ProgramHelp& program) {
     out += fmt::format("| [`{}`](#needlework-{}) | {} |\n", command.name, command.name,
                        markdown_cell(command.description));
   }
-  out += "\n" + markdown_options(program) + markdown_details(program);
+  const std::vector<OptionHelp> common = common_arguments(program);
+  out += "\n" + markdown_table(listed_options(program)) + markdown_details(program);
+  out += "\n## Common arguments\n\n" + markdown_table(common);
   for (const CommandHelp& command : program.commands) {
-    out += fmt::format("\n## needlework {}\n\n`{}`: {}.\n\n", command.name, command.usage(),
-                       command.description);
-    out += markdown_options(command) + markdown_details(command);
+    out += fmt::format("\n## needlework {}\n\n`{}`\n", command.name, command.usage());
+    const std::string options = markdown_options(command, common);
+    out += (options.empty() ? "" : "\n") + options + markdown_details(command);
   }
   return out;
 }

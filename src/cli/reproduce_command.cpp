@@ -1,48 +1,51 @@
 #include "src/cli/reproduce_command.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "src/cli/python_module.h"
 
 namespace needlework::cli {
+namespace {
+
+struct Group {
+  const char* title;
+  std::vector<std::string> figures;
+};
+
+const std::vector<Group>& groups() {
+  static const std::vector<Group> all{
+      {"of the paper", {"2", "3", "4", "5a", "5b", "6", "7", "8"}},
+      {"of its text", {"fluctuations", "moment", "rotation", "relaxation"}},
+      {"rough needles", {"rough"}},
+      {"larger systems", {"sizes", "dense-large", "dense-film", "clusters"}},
+      {"why they differ", {"cells", "tc-dilute", "tc-dense", "sliding-dilute", "sliding-dense"}},
+      {"why theory is off",
+       {"boltzmann-relaxation", "boltzmann-cooling", "boltzmann-ratio", "encounters"}},
+      {"driven", {"kicked", "vibrated"}},
+      {"between walls", {"walls", "sedimentation", "settling"}},
+      {"rods", {"rods", "rods-flow", "nematic"}},
+      {"sliding contact", {"sliding"}},
+      {"liquid", {"liquid", "liquid-correlations"}}};
+  return all;
+}
+
+}  // namespace
 
 std::vector<std::string> names_of_figures() {
-  return {"all",
-          "2",
-          "3",
-          "4",
-          "5a",
-          "5b",
-          "6",
-          "7",
-          "8",
-          "fluctuations",
-          "moment",
-          "rotation",
-          "relaxation",
-          "rough",
-          "sizes",
-          "dense-large",
-          "dense-film",
-          "clusters",
-          "cells",
-          "tc-dilute",
-          "tc-dense",
-          "sliding-dilute",
-          "sliding-dense",
-          "boltzmann-relaxation",
-          "boltzmann-cooling",
-          "boltzmann-ratio",
-          "encounters",
-          "kicked",
-          "vibrated",
-          "walls",
-          "sedimentation",
-          "settling",
-          "rods",
-          "rods-flow",
-          "nematic",
-          "sliding",
-          "liquid",
-          "liquid-correlations"};
+  std::vector<std::string> names{"all"};
+  for (const Group& group : groups()) {
+    names.insert(names.end(), group.figures.begin(), group.figures.end());
+  }
+  return names;
+}
+
+std::string help_on_figures() {
+  std::string text = "Figures:\n";
+  for (const Group& group : groups()) {
+    text += fmt::format("  {:<19}{}\n", group.title, fmt::join(group.figures, ", "));
+  }
+  return text;
 }
 
 int run(const ReproduceArguments& arguments) {

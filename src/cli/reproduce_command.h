@@ -17,6 +17,8 @@ struct ReproduceArguments {
 /// What may be asked for: all, and the figures as python/needlework/reproduce/figures.py names
 /// them, which a test compares. They are here too so that usage and help need no Python.
 std::vector<std::string> names_of_figures();
+/// The figures in groups, for --help.
+std::string help_on_figures();
 
 /// Returns the exit code if Python cannot be run; else this process becomes Python.
 int run(const ReproduceArguments& arguments);

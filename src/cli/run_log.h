@@ -1,4 +1,4 @@
-// `run --log`: the course of a run as JSON Lines, which docs/commands.md names and docs/log.md
+// `run --log`: the course of a run as JSON Lines, which docs/commands.md names and docs/json.md
 // describes.
 #pragma once
 

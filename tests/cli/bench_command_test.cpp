@@ -334,7 +334,7 @@ TEST_F(BenchCommand, ListsItsSubsets) {
     EXPECT_NE(outcome.out.find(std::string(subset) + " "), std::string::npos) << subset << " in\n"
                                                                               << outcome.out;
   }
-  EXPECT_NE(run("bench --help").out.find("Mann and Whitney"), std::string::npos);
+  EXPECT_NE(run("bench --help").out.find("Whitney"), std::string::npos);
 }
 
 const std::vector<double> steady{40, 41, 40.5, 40.2, 40.8};

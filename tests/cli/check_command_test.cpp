@@ -4,6 +4,7 @@
 #include "needlework/h5md.h"
 #include "needlework/initial_state.h"
 #include "needlework/theory.h"
+#include "tests/cli/described_keys.h"
 #include "tests/cli/program.h"
 
 namespace needlework {
@@ -33,6 +34,24 @@ TEST_F(CheckCommand, PrintsOneJsonObject) {
   EXPECT_EQ(json["expected"]["stop"], "collisions_per_needle");
   EXPECT_TRUE(json["tc"].is_null());
   EXPECT_GT(json["memory_bytes"].get<double>(), 0);
+}
+
+// The keys of all kinds of scenes together.
+TEST_F(CheckCommand, PrintsWhatItsDocumentDescribes) {
+  write("driven.toml", R"(needles = { box = 5 }
+until.time = 1
+collisions = { epsilon = 0.5, sliding = true }
+forces.gravity = [0, 0, -1]
+driving.kicks = { every = 0.1, translational = 2 }
+species = [{ name = "a", count = 5 }, { name = "b", count = 5, length = 0.5 }]
+[[walls]]
+axis = "z"
+side = "both"
+)");
+  auto object = run("check small.toml --json").json();
+  object.update(run("check driven.toml --json").json());
+  object.update(run("check small.toml --json --set needles.diameter=0.1").json());
+  EXPECT_EQ(keys_of(object), sorted(described_keys("json.md")["Scene explained by check"]));
 }
 
 TEST_F(CheckCommand, ExplainsWallsAndDriving) {

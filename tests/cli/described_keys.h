@@ -16,7 +16,7 @@ inline std::map<std::string, std::vector<std::string>> described_keys(const std:
   std::ifstream document(NEEDLEWORK_SOURCE "/docs/" + name);
   std::string heading;
   for (std::string line; std::getline(document, line);) {
-    if (line.starts_with("## ")) heading = line.substr(3);
+    if (line.starts_with("##")) heading = line.substr(line.find(' ') + 1);
     if (!line.starts_with("| `")) continue;
     const std::string cell = line.substr(2, line.find(" |", 2) - 2);
     for (std::size_t begin = 0; (begin = cell.find('`', begin)) != cell.npos;) {

@@ -60,7 +60,7 @@ def main(needlework, readme_program):
         gas, = blocks("README.md", "toml")
         Path(folder, "gas.toml").write_text(gas)
         run(needlework, "run", "gas.toml", "--log", "gas.jsonl")
-        script, = blocks("docs/log.md", "python")
+        script, = blocks("docs/json.md", "python")
         printed = run(sys.executable, "-c", script)
         assert "energy at collision" in printed, printed
         assert "/particles/needles: 1000 particles" in run(needlework, "info", "gas.h5")
