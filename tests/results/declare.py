@@ -67,7 +67,7 @@ def declared(file, text, lists):
     def block(match):
         what, kind = match[2], match[3]
         if what == "series":
-            head = "| path | meaning | type, unit |\n|---|---|---|\n"
+            head = "| path | meaning | type, shape, unit |\n|---|---|---|\n"
             rows = "".join(in_file(name, field) for name, field in lists["series"].items()
                            if name.split("/")[0] == kind)
         else:
