@@ -126,15 +126,13 @@ function resultsAtWalls(run) {
   });
 }
 
-// Contacts of needles that slide on each other, since the start of the run.
+// Contacts of needles that slide on each other, since the start of the run: all that the file says.
 function resultsOfContacts({ groups }) {
   if (!groups.contacts) return [];
-  const last = (name) => column(groups.contacts.datasets[name]).at(-1);
-  const ends = `ended by force ${numberText(last("ended_by_force"))}, at a tip ${numberText(last("ended_by_tip"))}, by strikes ${numberText(last("ended_by_strike"))}`;
-  return [
-    ["Contacts entered", last("entered"), ends],
-    ["Share of time in contact", last("share"), "mean of all needles"],
-  ];
+  return Object.entries(groups.contacts.datasets).map(([name, dataset]) => [
+    `Contacts: ${name.replaceAll("_", " ")}`,
+    column(dataset).at(-1),
+  ]);
 }
 
 // Temperatures of each species at the last sample, and collisions of each two.
