@@ -182,6 +182,8 @@ class Simulation {
  private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
+  class Access;
+  Access access() const;
 };
 
 }  // namespace needlework

@@ -304,6 +304,20 @@ std::string why_no_collision(const Scene& drawn) {
   return at_rest ? words_for(Collisionless::alike) : "";
 }
 
+// The way to whatever computes: while it lasts, in the arithmetic that bits rely on, whatever the
+// host program has chosen.
+class Simulation::Access {
+ public:
+  explicit Access(Implementation& implementation) : implementation_(implementation) {}
+  Implementation* operator->() const { return &implementation_; }
+
+ private:
+  kernels::DefaultArithmetic arithmetic_;
+  Implementation& implementation_;
+};
+
+Simulation::Access Simulation::access() const { return Access(*implementation_); }
+
 Simulation::Simulation(const Scene& scene) {
   if (!scene.initial.file.empty()) {
     throw InputError(place_of(scene, "initial.file", scene.initial.file) +
@@ -337,14 +351,10 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
 std::optional<Stop> Simulation::prepare(const Scene::Until& until) {
-  const kernels::DefaultArithmetic arithmetic;
-  return implementation_->prepare(until);
+  return access()->prepare(until);
 }
 
-Stop Simulation::advance(const Scene::Until& until) {
-  const kernels::DefaultArithmetic arithmetic;
-  return implementation_->advance(until);
-}
+Stop Simulation::advance(const Scene::Until& until) { return access()->advance(until); }
 
 std::string Simulation::why_no_collision() const {
   const Run& run = implementation_->run;
@@ -400,21 +410,22 @@ std::vector<std::vector<ObjectTotals>> Simulation::objects_by_source() const {
 const std::string& Simulation::placement() const { return implementation_->placement; }
 
 double Simulation::virial() const {
-  const auto& virial = implementation_->run.tally.virial;
+  const Access self = access();
+  const auto& virial = self->run.tally.virial;
   return virial.empty() ? 0 : virial.front().value();
 }
 
 double Simulation::t_tr_integral() const {
-  const kernels::DefaultArithmetic arithmetic;
-  const Run& run = implementation_->run;
+  const Access self = access();
+  const Run& run = self->run;
   const auto sums = sums_of_squares(run.gas, run.now, run.team.threads());
   return run.temperature_integral.at(run.gas.clock, run.now,
                                      translational_temperature(run.gas, sums));
 }
 
 std::vector<WallTotals> Simulation::wall_totals() const {
-  const kernels::DefaultArithmetic arithmetic;
-  const Run& run = implementation_->run;
+  const Access self = access();
+  const Run& run = self->run;
   const Scene& scene = implementation_->scene;
   const auto& box = run.gas.box;
   std::vector<WallTotals> out;
@@ -443,8 +454,8 @@ std::vector<WallTotals> Simulation::wall_totals() const {
 }
 
 std::optional<SlidingContacts> Simulation::sliding_contacts() const {
-  const kernels::DefaultArithmetic arithmetic;
-  const Run& run = implementation_->run;
+  const Access self = access();
+  const Run& run = self->run;
   if (!run.sliding) return std::nullopt;
   const SlidingTally& tally = run.tally.sliding;
   const double of_all = static_cast<double>(needles()) * time();
@@ -457,19 +468,13 @@ std::optional<SlidingContacts> Simulation::sliding_contacts() const {
                          .share = 2 * tally.time.value() / of_all};
 }
 
-EnergyBudget Simulation::energy_budget() const {
-  const kernels::DefaultArithmetic arithmetic;
-  return implementation_->run.energy_budget();
-}
+EnergyBudget Simulation::energy_budget() const { return access()->run.energy_budget(); }
 
 void Simulation::interrupt() noexcept { implementation_->run.interrupted = true; }
-Totals Simulation::totals() const {
-  const kernels::DefaultArithmetic arithmetic;
-  return implementation_->run.totals();
-}
+Totals Simulation::totals() const { return access()->run.totals(); }
 std::vector<SpeciesTotals> Simulation::species_totals() const {
-  const kernels::DefaultArithmetic arithmetic;
-  const Run& run = implementation_->run;
+  const Access self = access();
+  const Run& run = self->run;
   return needlework::species_totals(run.gas, sums_of_squares(run.gas, run.now, run.team.threads()));
 }
 std::vector<std::uint8_t> Simulation::species() const {
@@ -492,26 +497,22 @@ std::vector<std::uint64_t> Simulation::collisions_by_pair() const {
 }
 const Counters& Simulation::counters() const { return implementation_->run.tally.counters; }
 double Simulation::time() const {
-  const kernels::DefaultArithmetic arithmetic;
-  return implementation_->run.gas.clock.since_start(implementation_->run.now);
+  return access()->run.gas.clock.since_start(implementation_->run.now);
 }
 std::size_t Simulation::needles() const { return implementation_->run.gas.size(); }
 std::uint64_t Simulation::collisions() const { return implementation_->run.tally.collisions; }
 double Simulation::initial_energy() const {
-  const kernels::DefaultArithmetic arithmetic;
-  const Run& run = implementation_->run;
+  const Access self = access();
+  const Run& run = self->run;
   return (run.initial_energy - energy_of_low_edges(run.gas)) / static_cast<double>(run.gas.size());
 }
-double Simulation::energy_drift() const {
-  const kernels::DefaultArithmetic arithmetic;
-  return implementation_->run.energy_drift();
-}
+double Simulation::energy_drift() const { return access()->run.energy_drift(); }
 double Simulation::epoch_length() const { return implementation_->run.gas.clock.epoch_length(); }
 double Simulation::mean_free_time() const { return implementation_->run.windows.mean_free_time(); }
 std::string Simulation::trajectory_hash() const { return implementation_->run.tally.hash.hex(); }
 void Simulation::copy(State& into) const {
-  const kernels::DefaultArithmetic arithmetic;
-  const Run& run = implementation_->run;
+  const Access self = access();
+  const Run& run = self->run;
   copy_state(run.gas, run.now, implementation_->isa, implementation_->by_id(), into);
   into.periodic = implementation_->scene.periodic();
 }
@@ -521,16 +522,16 @@ State Simulation::copy() const {
   return out;
 }
 FreeNeedle Simulation::needle(std::uint32_t id) const {
-  const kernels::DefaultArithmetic arithmetic;
-  return needle_at(implementation_->run.gas, implementation_->run.now, {id});
+  const Access self = access();
+  return needle_at(self->run.gas, self->run.now, {id});
 }
 void Simulation::set_velocities(std::span<const std::array<double, 3>> velocity,
                                 std::span<const std::array<double, 3>> angular_velocity) {
-  const kernels::DefaultArithmetic arithmetic;
-  implementation_->set_velocities(velocity, angular_velocity);
+  access()->set_velocities(velocity, angular_velocity);
 }
 Checkpoint Simulation::checkpoint() const {
-  return implementation_->run.save(implementation_->scene, implementation_->by_id());
+  const Access self = access();
+  return self->run.save(self->scene, self->by_id());
 }
 std::string Simulation::search() const { return implementation_->search; }
 std::string Simulation::queue() const { return implementation_->calendar; }

@@ -13,6 +13,7 @@
 
 #include "needlework/error.h"
 #include "needlework/initial_state.h"
+#include "tests/support/rods.h"
 #include "tests/support/runs.h"
 
 namespace needlework {
@@ -546,6 +547,22 @@ TEST(Simulation, ComputesInTheDefaultFloatingPointEnvironment) {
     std::fesetround(FE_TONEAREST);
     EXPECT_EQ(found, expected);
     EXPECT_EQ(energy, usual.totals().energy);
+  }
+}
+
+// The sum of many terms, whose last bits depend on how it is rounded.
+TEST(Simulation, TellsTheVirialInTheDefaultFloatingPointEnvironment) {
+  const Scene scene = test::rods_and_spheres(20, 7, 1);
+  Simulation usual(scene);
+  for (int n = 1; n <= 20; ++n) {
+    usual.advance(until_collisions(n));
+    const double expected = usual.virial();
+    for (const int mode : {FE_UPWARD, FE_DOWNWARD}) {
+      ASSERT_EQ(std::fesetround(mode), 0);
+      const double found = usual.virial();
+      std::fesetround(FE_TONEAREST);
+      EXPECT_EQ(found, expected);
+    }
   }
 }
 
