@@ -12,6 +12,7 @@
 #include "src/cli/signals.h"
 #include "src/runs/exit_codes.h"
 #include "src/runs/replay.h"
+#include "src/scene/box_of.h"
 
 namespace needlework::cli {
 
@@ -21,15 +22,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Where the needles touch, in the box.
-std::array<double, 3> place_of_contact(const Collision& collision,
-                                       const std::array<double, 3>& box) {
+std::array<double, 3> place_of_contact(const Collision& collision, const Box& box) {
   const StateAfterCollision& first = collision.after[0];
   std::array<double, 3> place{};
-  for (int axis = 0; axis < 3; ++axis) {
-    const double x = first.position[axis] + collision.arm_first * first.orientation[axis];
-    place[axis] = x - std::floor(x / box[axis]) * box[axis];
-  }
-  return place;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    place[axis] = first.position[axis] + collision.arm_first * first.orientation[axis];
+  return box.wrap(place).place;
 }
 
 // What came of the replay, as a sentence.
@@ -81,7 +79,7 @@ void print_collisions(const runs::Replay& replay, const runs::Replayed& done) {
              "needle", "partner", "x", "y", "z", "V_n");
   for (const runs::NumberedHappening& entry : done.last) {
     const Collision& collision = entry.happening.event;
-    const auto place = place_of_contact(collision, replay.run().scene().needles.box);
+    const auto place = place_of_contact(collision, box_of(replay.run().scene()));
     fmt::print("  {:>12}  {:>23.17g}  {:>10}  {:>10}  {:>9.5g} {:>9.5g} {:>9.5g}  {:>10.3g}\n",
                entry.number, collision.time, collision.first, partner_of(entry.happening), place[0],
                place[1], place[2], collision.normal_velocity);
@@ -101,7 +99,7 @@ void print_result(const runs::Replay& replay, const runs::Replayed& done,
   if (!done.last.empty()) print_collisions(replay, done);
 }
 
-Json json_of(const runs::NumberedHappening& entry, const std::array<double, 3>& box) {
+Json json_of(const runs::NumberedHappening& entry, const Box& box) {
   const Collision& collision = entry.happening.event;
   Json out{{"number", entry.number},
            {"time", collision.time},
@@ -131,7 +129,7 @@ Json json_of(const runs::Replay& replay, const runs::Replayed& done, const std::
   const Simulation& simulation = replay.run().simulation();
   const Scene& scene = replay.run().scene();
   Json last = Json::array();
-  for (const auto& entry : done.last) last.push_back(json_of(entry, scene.needles.box));
+  for (const auto& entry : done.last) last.push_back(json_of(entry, box_of(scene)));
   return {{"bundle", bundle},
           {"failure", replay.failure() ? json_of(*replay.failure()) : Json(nullptr)},
           {"start", {{"time", replay.start_time()}, {"collisions", replay.start_collisions()}}},

@@ -151,14 +151,8 @@ class CausalityLog {
   }
 
   double square_of_distance(const Entry& a, const Vec3d& b) const {
-    const std::array<double, 3> sides = grid_.sides();
-    double squares = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double gap = a.at[axis] - component(b, axis), count = grid_.counts()[axis];
-      const double nearest = (gap - std::nearbyint(gap / count) * count) * sides[axis];
-      squares += nearest * nearest;
-    }
-    return squares;
+    const Vec3d apart = grid_.shortest({a.at[0] - b.x, a.at[1] - b.y, a.at[2] - b.z});
+    return dot(apart, apart);
   }
 
   CellGrid grid_;

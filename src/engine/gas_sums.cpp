@@ -17,7 +17,9 @@ Vec3d weight(const Gas& gas) { return gas.gravity - gas.pull; }
 // Where gravity has no component along an axis, the place there does not count.
 Vec3d lowest(const Gas& gas) {
   const Vec3d g = weight(gas);
-  const auto edge = [&](double along, int axis) { return along > 0 ? gas.box[axis] : 0; };
+  const auto edge = [&](double along, std::size_t axis) {
+    return along > 0 ? gas.box.edge(axis) : 0;
+  };
   return {edge(g.x, 0), edge(g.y, 1), edge(g.z, 2)};
 }
 
@@ -33,9 +35,7 @@ std::array<double, 2> falls_of(const Gas& gas, Time now, std::size_t species, in
     if (a.species != species) return std::array{0.0, 0.0};
     const Needle i = needle_of(gas, a);
     const Vec3d centre = gas.slides ? gas.present(i, now).r : gas.motion_from(a, now).centre();
-    const Shift& boxes = gas.images[i];
-    const Vec3d way =
-        centre + Vec3d{boxes[0] * gas.box[0], boxes[1] * gas.box[1], boxes[2] * gas.box[2]};
+    const Vec3d way = centre + gas.box_at(now).image(gas.images[i]).place;
     return std::array{dot(g, low - centre), dot(gas.pull, way)};
   });
   return {height, pulled};
@@ -190,7 +190,7 @@ double mean_free_time_of(const Gas& gas, const std::vector<SumsOfSquares>& sums)
   }
   const std::optional<std::size_t> only = gas.composition.only();
   if (!only || gas.composition.has_width()) {
-    return mean_free_time(gas.composition, gas.box[0] * gas.box[1] * gas.box[2], temperatures);
+    return mean_free_time(gas.composition, gas.box.volume(), temperatures);
   }
   const Species& species = gas.composition[*only];
   return mean_free_time({.density = gas.density(),

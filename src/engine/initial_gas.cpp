@@ -37,19 +37,19 @@ void check_vector(const Vec3d& a, const char* what, Id id) {
 // The numbers that records count to, also once the centre is wrapped into the box.
 void check_image(const Gas& gas, Needle i) {
   const Vec3d& r = gas.records[i].flight.r;
-  const double place[3] = {r.x, r.y, r.z};
-  for (int axis = 0; axis < 3; ++axis) {
+  const std::array<double, 3> place = to_array(r);
+  const Boxes boxes = gas.box.wrap(place).boxes;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::int32_t image = gas.images[i][axis];
     if (image < -most_boxes || image > most_boxes) {
       throw InputError(
           fmt::format("state: needle {}: image = {}: expected a whole number from {} to {}",
                       gas.ids[i].value, image, -most_boxes, most_boxes));
     }
-    const double boxes = wrap(gas, place[axis], axis).boxes;
-    if (std::abs(image + boxes) <= most_boxes) continue;
+    if (std::abs(image + boxes[axis]) <= most_boxes) continue;
     throw InputError(fmt::format(
         "state: needle {}: position {} in a box of {}, with image {}: expected it within {} boxes",
-        gas.ids[i].value, place[axis], gas.box[axis], image, most_boxes));
+        gas.ids[i].value, place[axis], gas.box.edge(axis), image, most_boxes));
   }
 }
 
@@ -140,7 +140,7 @@ void require_inside(const Scene& scene, const Gas& gas) {
       Gap wall = gaps[side.axis];
       (side.is_high ? wall.has_low : wall.has_high) = false;
       const double reach = half * std::abs(director[side.axis]) + 0.5 * species.diameter;
-      const double beyond = wall.beyond(centre[side.axis], reach, gas.box[side.axis]);
+      const double beyond = wall.beyond(centre[side.axis], reach, gas.box.edge(side.axis));
       if (beyond <= gas.touch_tolerance()) continue;
       throw InputError(fmt::format(
           "state: needle {}: a tip is {:.3g} beyond the wall {}-{}: expected both inside{}",
@@ -151,9 +151,9 @@ void require_inside(const Scene& scene, const Gas& gas) {
 }
 
 // That no two rods overlap but by rounding, and that spheres do not turn.
-void require_room_for_rods(const Scene& scene, const Gas& gas) {
+void require_room_for_rods(const Gas& gas) {
   if (!gas.composition.has_width()) return;
-  RodGrid grid(gas.composition, gas.box, scene.periodic(), gas.size());
+  RodGrid grid(gas.composition, gas.box, gas.size());
   std::size_t pairs = 0;
   RodGrid::Overlap worst{};
   std::array<std::uint32_t, 2> worst_ids{};
@@ -185,11 +185,12 @@ void require_room_for_rods(const Scene& scene, const Gas& gas) {
 
 }  // namespace
 
-void set_surroundings(Gas& gas, const Scene& scene) {
-  for (const Scene::WallSide& side : scene.wall_sides()) gas.walled[side.axis] = true;
+void set_gravity(Gas& gas, const Scene& scene) {
   gas.gravity = vector_of(scene.forces.gravity);
   gas.falls = !(gas.gravity == Vec3d{});
-  const auto along_periodic = [&](double g, std::size_t axis) { return gas.walled[axis] ? 0 : g; };
+  const auto along_periodic = [&](double g, std::size_t axis) {
+    return gas.box.is_periodic(axis) ? g : 0;
+  };
   gas.pull = {along_periodic(gas.gravity.x, 0), along_periodic(gas.gravity.y, 1),
               along_periodic(gas.gravity.z, 2)};
 }
@@ -202,8 +203,8 @@ Gas make_gas(const Scene& scene, const State& initial) {
   if (!initial.image.empty()) check_size(initial.image.size(), count, "image");
   if (!initial.id.empty()) check_size(initial.id.size(), count, "id");
   Gas gas;
-  gas.box = initial.box;
-  set_surroundings(gas, scene);
+  gas.box = Box(initial.box, scene.periodic());
+  set_gravity(gas, scene);
   gas.set_composition(composition_of(scene, initial));
   const double length = gas.longest;
   const Room room(scene);
@@ -250,7 +251,7 @@ Gas make_gas(const Scene& scene, const State& initial) {
   }
   set_species(gas, initial, order);
   require_inside(scene, gas);
-  require_room_for_rods(scene, gas);
+  require_room_for_rods(gas);
   return gas;
 }
 

@@ -7,8 +7,8 @@
 
 namespace needlework {
 
-/// Sets the walls and the gravity of the scene.
-void set_surroundings(Gas& gas, const Scene& scene);
+/// Sets the gravity of the scene, of a gas whose box is set.
+void set_gravity(Gas& gas, const Scene& scene);
 
 /// Makes the needles of a run from a state. Throws InputError for a state that cannot be
 /// simulated.

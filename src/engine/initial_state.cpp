@@ -13,6 +13,7 @@
 #include "needlework/error.h"
 #include "needlework/initial_state.h"
 #include "needlework/simulation.h"
+#include "src/box/box.h"
 #include "src/machine/stop_request.h"
 #include "src/physics/vectors.h"
 #include "src/scene/check.h"
@@ -119,7 +120,7 @@ State drawn_from(const Simulation& simulation, const Scene& scene) {
 
 // Whether two rods that touch where they have last collided approach each other, in a state in
 // order of id.
-bool approach(const State& state, const Collision& last, const std::array<Gap, 3>& gaps) {
+bool approach(const State& state, const Collision& last) {
   const std::size_t a = last.first, b = last.second;
   const auto arm = [&](std::size_t i, double length) {
     const Vec3d u = vector_of(state.orientation[i]);
@@ -127,14 +128,12 @@ bool approach(const State& state, const Collision& last, const std::array<Gap, 3
   };
   const auto [first, turns_first] = arm(a, last.arm_first);
   const auto [second, turns_second] = arm(b, last.arm_second);
-  std::array<double, 3> apart{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    apart[axis] = state.position[a][axis] - state.position[b][axis];
-    if (gaps[axis].is_walled()) continue;
-    apart[axis] -= state.box[axis] * std::nearbyint(apart[axis] / state.box[axis]);
-  }
-  const Vec3d velocity = vector_of(state.velocity[a]) - vector_of(state.velocity[b]);
-  return dot(vector_of(apart) + first - second, velocity + turns_first - turns_second) < 0;
+  const Vec3d apart = vector_of(state.position[a]) - vector_of(state.position[b]);
+  const Box box = box_of(state);
+  const Image<double> image = box.image(box.nearest(apart));
+  const Vec3d velocity =
+      vector_of(state.velocity[a]) - vector_of(state.velocity[b]) - image.velocity;
+  return dot(apart - image.place + first - second, velocity + turns_first - turns_second) < 0;
 }
 
 DrawnState melted(const Scene& scene, State state, RodOrder order, double collisions_per_rod) {
@@ -156,7 +155,7 @@ DrawnState melted(const Scene& scene, State state, RodOrder order, double collis
   DrawnState out;
   out.state = drawn_from(simulation, scene);
   // By its new velocities, the pair of the last collision would begin the run with another one.
-  if (last && approach(out.state, *last, gaps_of(scene))) {
+  if (last && approach(out.state, *last)) {
     until.collisions_per_needle.reset();
     until.time = simulation.time() + 0.5 * simulation.mean_free_time();
     while (simulation.advance(until) == Stop::wall_time) StopRequest::check();

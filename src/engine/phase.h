@@ -113,7 +113,7 @@ Phase<S>::Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its
 template <Search S>
 void Phase<S>::divide() {
   const std::vector<std::uint32_t> subdomain =
-      divide_box(cells, run.gas.box, calendar.needles_in_cells(), threads);
+      divide_box(cells, run.gas.box.edges(), calendar.needles_in_cells(), threads);
   // An event looks for earlier ones from its own cell, and from that of its partner.
   CellCounts far = in_sight.extent();
   for (int axis = 0; axis < 3; ++axis) far[axis] += neighbours[axis];

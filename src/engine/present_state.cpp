@@ -16,7 +16,9 @@ namespace needlework {
 void copy_state(const Gas& gas, Time at, kernels::Isa isa, const std::vector<Needle>& order,
                 State& out) {
   using C = kernels::FlightColumns;
-  out.box = gas.box;
+  const Box& box = gas.box_at(at);
+  out.box = box.edges();
+  out.periodic = box.periodic();
   out.resize(gas.size());
   out.species.resize(gas.composition.is_mixture() ? gas.size() : 0);
   // Few enough for the columns to stay in the first-level cache.
@@ -38,26 +40,21 @@ void copy_state(const Gas& gas, Time at, kernels::Isa isa, const std::vector<Nee
       const double elapsed = columns[C::elapsed][n];
       const bool slides = gas.slides && gas.records[i].is_sliding();
       const kernels::Stance sliding = slides ? gas.present(i, at) : kernels::Stance{};
-      std::array<double, 3> r = to_array(slides      ? sliding.r
-                                         : gas.falls ? gas.motion(gas.records[i]).centre(elapsed)
-                                                     : flights.centre(n));
-      Shift image = gas.images[i];
-      for (int axis = 0; axis < 3; ++axis) {
-        const Wrapped wrapped = wrap(gas, r[axis], axis);
-        r[axis] = wrapped.place;
-        image[axis] += static_cast<std::int32_t>(wrapped.boxes);  // see most_boxes
-      }
+      const auto [place, boxes] =
+          box.wrap(to_array(slides      ? sliding.r
+                            : gas.falls ? gas.motion(gas.records[i]).centre(elapsed)
+                                        : flights.centre(n)));
       const bool just_now = elapsed == 0;
       const std::size_t row = begin + n;
       out.id[row] = gas.ids[i].value;
       if (!out.species.empty()) out.species[row] = gas.records[i].species;
-      out.position[row] = r;
-      out.image[row] = image;
-      out.velocity[row] = to_array(gas.motion(gas.records[i]).velocity(elapsed));
+      out.position[row] = place;
+      out.image[row] = gas.images[i] + shift_of(boxes);  // see most_boxes
+      const Vec3d velocity = slides ? sliding.v : gas.motion(gas.records[i]).velocity(elapsed);
+      out.velocity[row] = to_array(velocity - box.image(boxes).velocity);
       out.orientation[row] = to_array(just_now ? flight.u : normalised(flights.director(n)));
       out.angular_velocity[row] = to_array(flight.w);
       if (!slides) continue;
-      out.velocity[row] = to_array(sliding.v);
       out.orientation[row] = to_array(normalised(sliding.u));
       out.angular_velocity[row] = to_array(project_out(sliding.w, normalised(sliding.u)));
     }
@@ -78,12 +75,12 @@ FreeNeedle needle_at(const Gas& gas, Time at, Id id) {
     there = gas.present(id, record, at);
     there.u = normalised(there.u);
   }
-  const Vec3d centre = there.r;
+  const Box& box = gas.box_at(at);
+  const auto [place, boxes] = box.wrap(to_array(there.r));
   FreeNeedle out;
-  out.position = {wrap(gas, centre.x, 0).place, wrap(gas, centre.y, 1).place,
-                  wrap(gas, centre.z, 2).place};
+  out.position = place;
   out.orientation = to_array(there.u);
-  out.velocity = to_array(there.v);
+  out.velocity = to_array(there.v - box.image(boxes).velocity);
   out.angular_velocity = to_array(there.w);
   out.length = gas.species_of(record).length;
   out.diameter = gas.species_of(record).diameter;
@@ -94,10 +91,7 @@ void require_images(const Gas& gas, Time at) {
   for (Needle i{0}; i < gas.size(); ++i) {
     const Vec3d centre =
         gas.slides ? gas.present(i, at).r : gas.motion_from(gas.records[i], at).centre();
-    const double place[3] = {centre.x, centre.y, centre.z};
-    for (int axis = 0; axis < 3; ++axis) {
-      add_boxes(gas.images[i][axis], wrap(gas, place[axis], axis).boxes, gas.ids[i]);
-    }
+    add_boxes(gas.images[i], gas.box_at(at).wrap(to_array(centre)).boxes, gas.ids[i]);
   }
 }
 

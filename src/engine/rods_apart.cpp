@@ -24,7 +24,7 @@ double explained_overlap(const Gas& gas, Time at) {
   for (const Species& each : gas.composition.species())
     smallest = std::min(smallest, each.diameter);
   // Positions and directors are rounded when records are made, and again when they are moved on.
-  const double rounding = 0x1p-51 * (gas.longest + ((gas.box[0] + gas.box[1]) + gas.box[2]));
+  const double rounding = 0x1p-51 * (gas.longest + gas.box.sum_of_edges());
   double fastest = 0;
   for (Needle i{0}; i < gas.size(); ++i) {
     const Record& record = gas.records[i];
@@ -43,9 +43,7 @@ std::optional<RodOverlap> find_overlap(const Gas& gas, Time at, kernels::Isa isa
   for (Needle i{0}; i < gas.size(); ++i) order.push_back(i);
   State state;
   copy_state(gas, at, isa, order, state);
-  std::array<bool, 3> periodic{};
-  for (std::size_t axis = 0; axis < 3; ++axis) periodic[axis] = !gas.walled[axis];
-  RodGrid grid(gas.composition, gas.box, periodic, gas.size());
+  RodGrid grid(gas.composition, gas.box_at(at), gas.size());
   for (std::size_t i = 0; i < state.size(); ++i) {
     const SpeciesIndex species = state.species.empty() ? SpeciesIndex{0} : state.species[i];
     const auto overlap = grid.overlap(state.position[i], state.orientation[i], species, tolerance);

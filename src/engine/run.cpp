@@ -31,14 +31,14 @@ bool is_at_rest(const Record& record) {
 }
 
 // The walls in the order in which reports count them.
-std::vector<Wall> walls_of(const Scene& scene, const std::array<double, 3>& box) {
+std::vector<Wall> walls_of(const Scene& scene, const Box& box) {
   std::vector<Wall> out;
   for (const Scene::WallSide& side : scene.wall_sides()) {
     const Scene::Wall& given = scene.walls[side.entry];
     Wall& wall = out.emplace_back();
     wall.plane.axis = static_cast<int>(side.axis);
     wall.plane.normal = side.is_high ? -1 : 1;
-    wall.plane.place = side.is_high ? box[side.axis] : 0;
+    wall.plane.place = side.is_high ? box.edge(side.axis) : 0;
     wall.epsilon = given.epsilon;
     wall.temperature = given.temperature.value_or(0);
     if (!given.motion) continue;
@@ -64,7 +64,7 @@ bool has_contact_time(const Scene& scene) {
 double crossing_time(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
   double square = 0;  // of the speed
   for (const SumsOfSquares& sum : sums) square += sum.v2 / static_cast<double>(gas.size());
-  const double edge = std::max({gas.box[0], gas.box[1], gas.box[2]});
+  const double edge = gas.box.longest_edge();
   square += edge * std::sqrt(dot(gas.gravity, gas.gravity));
   return square > 0 ? edge / std::sqrt(square) : std::numeric_limits<double>::infinity();
 }
@@ -183,7 +183,7 @@ void Run::pass_window() {
   // Walls and gravity make densities that kinetic theory does not know. The many small bounces of a
   // pair that slides are not counted: they would shorten the mean free time and with it t_c, which
   // would make them smaller still, without end. Nor are crowded ones, where needles slide.
-  if (gas.has_walls() && gas.size() > 1) {
+  if (!gas.box.is_periodic() && gas.size() > 1) {
     windows.measure(tally.collisions - tally.tc_collisions - tally.sliding.crowded, gas.size(),
                     gas.clock.since_start(now));
   }

@@ -16,6 +16,7 @@
 #include "src/machine/stop_request.h"
 #include "src/physics/transfer.h"
 #include "src/physics/vectors.h"
+#include "src/scene/box_of.h"
 #include "src/scene/confinement.h"
 
 namespace needlework {
@@ -57,9 +58,9 @@ std::vector<double> physics_of(const Run& run, const Scene& scene) {
   const Species& species = composition[0];
   const Restitution& restitution = composition.restitution(0, 0);
   const Accuracy accuracy = run.accuracy;
-  std::vector<double> out = {run.gas.box[0],
-                             run.gas.box[1],
-                             run.gas.box[2],
+  std::vector<double> out = {run.gas.box.edge(0),
+                             run.gas.box.edge(1),
+                             run.gas.box.edge(2),
                              species.length,
                              species.mass,
                              species.k,
@@ -120,10 +121,7 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
   require(is_time(gas.clock, record.time) && record.time.epoch >= 0);
   record.renewal = renewal_time(gas, record, gas.species_of(record).extent());
   require(touches.size() <= most_touches);
-  const double places[3] = {f.r.x, f.r.y, f.r.z};
-  for (int axis = 0; axis < 3; ++axis) {
-    require(gas.walled[axis] || (places[axis] >= 0 && places[axis] < gas.box[axis]));
-  }
+  require(gas.box_at(record.time).wrap(to_array(f.r)).place == to_array(f.r));
   record.touch_count = 0;
   for (const RecordedTouch& touch : touches) {
     const bool may_slide = gas.slides && &touch == &touches.front();
@@ -207,10 +205,10 @@ void Run::require_consistent() const {
     StopRequest::check_in_turn(i);
     const Record& record = gas.records[i];
     const Vec3d centre = gas.slides ? gas.present(i, now).r : gas.motion_from(record, now).centre();
-    const double places[3] = {centre.x, centre.y, centre.z};
-    for (int axis = 0; axis < 3; ++axis) {
+    const Boxes boxes = gas.box_at(now).wrap(to_array(centre)).boxes;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
       constexpr double most = std::numeric_limits<std::int32_t>::max();
-      require(std::abs(gas.images[i][axis] + wrap(gas, places[axis], axis).boxes) <= most);
+      require(std::abs(gas.images[i][axis] + boxes[axis]) <= most);
     }
   }
   StopRequest::check();
@@ -290,8 +288,8 @@ Run::Run(const Scene& scene, const Checkpoint& saved) : Run(scene) {
   std::vector<double> physics;
   std::uint64_t count;
   archive(physics, count);
-  gas.box = scene.needles.box;
-  set_surroundings(gas, scene);
+  gas.box = box_of(scene);
+  set_gravity(gas, scene);
   add_effects(scene);
   if (physics != physics_of(*this, scene)) {
     throw InputError(
@@ -304,7 +302,7 @@ Run::Run(const Scene& scene, const Checkpoint& saved) : Run(scene) {
                                  count, of_scene));
   }
   require(count <= saved.bytes.size() / least_bytes_of_a_needle);
-  require(Room(scene).holds(gas.box));
+  require(Room(scene).holds(gas.box.edges()));
   // A scene need not say how many needles there are of its only species.
   if (!gas.composition.is_mixture()) gas.composition.set_count(0, count);
   gas.resize(count);

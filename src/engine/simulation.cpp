@@ -54,8 +54,8 @@ LoopChoice choice_of(const Scene& scene, const Run& run, double density) {
                     .capsule_radius = scene.engine.capsule_radius,
                     .by_class = scene.engine.search == "auto",
                     .float_filter = accuracy_of(scene.engine).float_filter,
-                    .count_multiples =
-                        multiples_to_divide(run.gas.box, static_cast<std::uint32_t>(threads))},
+                    .count_multiples = multiples_to_divide(run.gas.box.edges(),
+                                                           static_cast<std::uint32_t>(threads))},
           .replaced = {}};
 }
 
@@ -427,13 +427,13 @@ std::vector<WallTotals> Simulation::wall_totals() const {
   const Access self = access();
   const Run& run = self->run;
   const Scene& scene = implementation_->scene;
-  const auto& box = run.gas.box;
+  const Box& box = run.gas.box;
   std::vector<WallTotals> out;
   for (const Scene::WallSide& side : scene.wall_sides()) {
     WallTotals& wall = out.emplace_back();
     wall.axis = static_cast<int>(side.axis);
     wall.high = side.is_high;
-    wall.area = box[(side.axis + 1) % 3] * box[(side.axis + 2) % 3];
+    wall.area = box.edge((side.axis + 1) % 3) * box.edge((side.axis + 2) % 3);
     wall.phase = phase_of(scene.walls[side.entry].motion, run.gas.clock, run.now);
   }
   const auto by_source = objects_by_source();
@@ -514,7 +514,6 @@ void Simulation::copy(State& into) const {
   const Access self = access();
   const Run& run = self->run;
   copy_state(run.gas, run.now, implementation_->isa, implementation_->by_id(), into);
-  into.periodic = implementation_->scene.periodic();
 }
 State Simulation::copy() const {
   State out;

@@ -43,11 +43,11 @@ void sort_by(const std::vector<std::uint64_t>& keys, std::vector<Needle>& order)
 
 std::vector<Needle> order_in_space(const Gas& gas, Time now) {
   // One scale for all axes, in steps of about half a needle length.
-  const double longest = std::max({gas.box[0], gas.box[1], gas.box[2]});
+  const double longest = gas.box.longest_edge();
   const double length = mean_length(gas.composition) * gas.longest;
   const double steps = std::min(2 * longest / length, 0x1p21 - 1);
   std::array<double, 3> cells;
-  for (std::size_t axis = 0; axis < 3; ++axis) cells[axis] = gas.box[axis] / longest * steps;
+  for (std::size_t axis = 0; axis < 3; ++axis) cells[axis] = gas.box.edge(axis) / longest * steps;
   std::size_t turn = 0;
   const std::vector<std::uint64_t> keys = keys_of_cells(gas, now, cells, [&](const BoxCell& cell) {
     StopRequest::check_in_turn(turn++);

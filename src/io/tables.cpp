@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "src/box/box.h"
+
 namespace needlework::io {
 
 using hdf5::check;
@@ -118,8 +120,8 @@ void Frames::append(const State& state) {
                                             place_, state.size(), needles_));
   }
   write_ids(state);
-  const std::array<double, 9> matrix{state.box[0], 0, 0, 0, state.box[1], 0, 0, 0, state.box[2]};
-  edges_.append(matrix.data(), 1);
+  const auto vectors = box_of(state).vectors();
+  edges_.append(vectors.front().data(), 1);
   const auto append_frame = [](Column& column, const auto& rows) {
     column.append(
         reinterpret_cast<const typename std::decay_t<decltype(rows[0])>::value_type*>(rows.data()),

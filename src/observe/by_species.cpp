@@ -25,6 +25,7 @@ void SnapshotsBySpecies::take(const Snapshot& all) {
   for (std::size_t n = 0; n < parts_.size(); ++n) {
     Part& part = parts_[n];
     part.state.box = state.box;
+    part.state.periodic = state.periodic;
     part.state.resize(0);
     const SpeciesTotals& sums = all.species.totals[n];
     part.totals = {.time = all.totals.time, .t_tr = sums.t_tr, .t_rot = sums.t_rot};

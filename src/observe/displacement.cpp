@@ -55,7 +55,7 @@ class Displacement : public Observable {
   }
 
   void sample(const Snapshot& now, Row& row) override {
-    const std::vector<Vector> position = unwrapped(now.state, gas_.box);
+    const std::vector<Vector> position = unwrapped(now.state);
     keep(now, position);
     std::vector<Moved> means;
     for (const Reference& reference : references_) {

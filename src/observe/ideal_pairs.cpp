@@ -8,10 +8,10 @@
 
 namespace needlework::observe {
 
-IdealPairs::IdealPairs(const GasSetting& gas) : composition_(gas.composition), box_(gas.box) {
-  for (const Slabs& slabs : gas.wall_slabs) walled_.push_back(slabs.axis);
+IdealPairs::IdealPairs(const GasSetting& gas)
+    : composition_(gas.composition), box_(gas.box.edges()) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (std::ranges::find(walled_, axis) == walled_.end()) periodic_.push_back(axis);
+    (gas.box.is_periodic(axis) ? periodic_ : walled_).push_back(axis);
   }
 }
 

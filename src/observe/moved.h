@@ -6,15 +6,19 @@
 #include <vector>
 
 #include "needlework/state.h"
+#include "src/box/box.h"
 #include "src/observe/vector.h"
 
 namespace needlework::observe {
 
-/// Centres followed across the boundaries of a periodic box with these edges.
-inline std::vector<Vector> unwrapped(const State& state, const Vector& box) {
+/// Centres followed across the boundaries of the box.
+inline std::vector<Vector> unwrapped(const State& state) {
+  const Box box = box_of(state);
   std::vector<Vector> out = state.position;
-  for (std::size_t i = 0; i < state.image.size(); ++i)
-    for (std::size_t axis = 0; axis < 3; ++axis) out[i][axis] += state.image[i][axis] * box[axis];
+  for (std::size_t i = 0; i < state.image.size(); ++i) {
+    const Vec3d way = box.image(state.image[i]).place;
+    out[i] = {out[i][0] + way.x, out[i][1] + way.y, out[i][2] + way.z};
+  }
   return out;
 }
 

@@ -17,6 +17,7 @@
 #include "needlework/state.h"
 #include "needlework/totals.h"
 #include "src/archive/archive.h"
+#include "src/box/box.h"
 #include "src/observe/grid.h"
 #include "src/observe/vector.h"
 #include "src/observe/wall_slabs.h"
@@ -49,7 +50,7 @@ class SpeciesById {
 struct GasSetting {
   std::size_t count = 0;  ///< of the needles that the observable is given
   std::size_t all = 0;    ///< of all species
-  Vector box{};
+  Box box;
   double length = 1, mass = 1;  ///< of several species the longest length, and no mass
   double inertia = 1;           ///< I = m L^2 / (2 k)
   std::array<int, 3> cells{1, 1, 1};
@@ -57,8 +58,8 @@ struct GasSetting {
   Composition composition;
   SpeciesById species_by_id;
 
-  double volume() const { return box[0] * box[1] * box[2]; }
-  Grid grid() const { return {box, cells}; }
+  double volume() const { return box.volume(); }
+  Grid grid() const { return {box.edges(), cells}; }
   GasSetting of_species(std::size_t index) const;
 };
 

@@ -7,6 +7,7 @@
 
 #include "src/observe/effect_sums.h"
 #include "src/observe/rod_sums.h"
+#include "src/scene/box_of.h"
 #include "src/scene/confinement.h"
 
 namespace needlework::observe {
@@ -14,8 +15,8 @@ namespace needlework::observe {
 GasSetting setting_of(const Scene& scene) {
   GasSetting gas;
   gas.count = gas.all = scene.needles.count;
-  gas.box = scene.needles.box;
-  gas.cells = scene.output.grid.value_or(default_cells(gas.box, gas.count));
+  gas.box = box_of(scene);
+  gas.cells = scene.output.grid.value_or(default_cells(gas.box.edges(), gas.count));
   gas.wall_slabs = wall_slabs(scene);
   gas.composition = scene.composition();
   if (!gas.composition.is_mixture()) {

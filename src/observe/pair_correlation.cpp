@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 
+#include "src/box/box.h"
 #include "src/observe/ideal_pairs.h"
 #include "src/observe/registry.h"
 
@@ -33,7 +34,6 @@ using Cell = std::vector<Needle>;
 class PairCorrelation : public Observable {
  public:
   explicit PairCorrelation(const GasSetting& gas) : gas_(gas) {
-    for (const Slabs& slabs : gas.wall_slabs) is_periodic_[slabs.axis] = false;
     const IdealPairs ideal(gas);
     reach_ = std::min(3 * gas.length, ideal.reach());
     for (std::size_t n = 0; n <= bins; ++n) borders_.push_back(reach_ * double(n) / bins);
@@ -83,14 +83,10 @@ class PairCorrelation : public Observable {
     }
   }
 
-  void add(const Needle& one, const Needle& other) {
-    double square = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      // Both are inside the box along periodic axes, so the nearest image is at most one edge away.
-      const double d = std::abs(other.position[axis] - one.position[axis]);
-      const double nearest = is_periodic_[axis] ? std::min(d, gas_.box[axis] - d) : d;
-      square += nearest * nearest;
-    }
+  void add(const Box& box, const Needle& one, const Needle& other) {
+    const auto [x, y, z] = minus(other.position, one.position);
+    const Vec3d nearest = box.shortest({x, y, z});
+    const double square = dot(nearest, nearest);
     if (!(square < reach_ * reach_)) return;
     const auto bin = static_cast<std::size_t>(std::sqrt(square) / reach_ * bins);
     if (bin >= bins) return;
@@ -99,35 +95,36 @@ class PairCorrelation : public Observable {
     p2_[place] += second_legendre(dot(one.director, other.director));
   }
 
-  void add_pairs_within(const Cell& cell) {
+  void add_pairs_within(const Box& box, const Cell& cell) {
     for (std::size_t n = 0; n < cell.size(); ++n)
-      for (std::size_t m = n + 1; m < cell.size(); ++m) add(cell[n], cell[m]);
+      for (std::size_t m = n + 1; m < cell.size(); ++m) add(box, cell[n], cell[m]);
   }
 
   void visit_near_pairs(const State& state) {
+    const Box box = box_of(state);
     std::array<int, 3> extent{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      extent[axis] = static_cast<int>(std::min(gas_.box[axis] / reach_, 100.0));
+      extent[axis] = static_cast<int>(std::min(box.edge(axis) / reach_, 100.0));
       // With two cells along an axis, one would be on both sides of the other.
       if (extent[axis] < 3) extent[axis] = 1;
     }
-    const Grid grid(gas_.box, extent);
+    const Grid grid(box.edges(), extent);
     std::vector<Cell> cells(grid.size());
     for (std::size_t i = 0; i < state.size(); ++i) {
       const std::size_t species = gas_.composition.is_mixture() ? state.species[i] : 0;
       cells[grid.cell_of(state.position[i])].push_back(
           {state.position[i], state.orientation[i], species});
     }
-    for (const Cell& cell : cells) add_pairs_within(cell);
+    for (const Cell& cell : cells) add_pairs_within(box, cell);
     if (cells.size() == 1) return;
     for (int x = 0; x < extent[0]; ++x)
       for (int y = 0; y < extent[1]; ++y)
-        for (int z = 0; z < extent[2]; ++z) add_pairs_across(cells, extent, {x, y, z});
+        for (int z = 0; z < extent[2]; ++z) add_pairs_across(box, cells, extent, {x, y, z});
   }
 
   // The pairs of a cell with half of its 26 neighbours: each pair once.
-  void add_pairs_across(const std::vector<Cell>& cells, const std::array<int, 3>& extent,
-                        const std::array<int, 3>& cell) {
+  void add_pairs_across(const Box& box, const std::vector<Cell>& cells,
+                        const std::array<int, 3>& extent, const std::array<int, 3>& cell) {
     const auto at = [&](int dx, int dy, int dz) -> const Cell& {
       const std::array<int, 3> step{dx, dy, dz};
       std::size_t index = 0;
@@ -143,15 +140,14 @@ class PairCorrelation : public Observable {
       const auto leaves = [&](std::size_t axis) { return extent[axis] == 1 && step[axis] != 0; };
       if (leaves(0) || leaves(1) || leaves(2)) continue;
       for (const Needle& other : at(step[0], step[1], step[2]))
-        for (const Needle& one : here) add(one, other);
+        for (const Needle& one : here) add(box, one, other);
     }
   }
 
   GasSetting gas_;
   double reach_ = 0;
   std::vector<double> borders_;
-  std::vector<double> ideal_;  ///< share of all pairs, by pair of species, then bin
-  std::array<bool, 3> is_periodic_{true, true, true};
+  std::vector<double> ideal_;       ///< share of all pairs, by pair of species, then bin
   std::vector<double> pairs_, p2_;  ///< by pair of species, then bin
 };
 

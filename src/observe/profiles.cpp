@@ -54,12 +54,12 @@ class Profiles : public Observable {
   Grid slabs_across(std::size_t axis) const {
     std::array<int, 3> cells{1, 1, 1};
     cells[axis] = slabs_;
-    return {gas_.box, cells};
+    return {gas_.box.edges(), cells};
   }
 
   std::vector<double> middles() const {
     std::vector<double> out;
-    for (const double edge : gas_.box)
+    for (const double edge : gas_.box.edges())
       for (int n = 0; n < slabs_; ++n) out.push_back(edge * (n + 0.5) / slabs_);
     return out;
   }

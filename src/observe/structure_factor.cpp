@@ -20,7 +20,7 @@ class StructureFactor : public Observable {
 
   std::vector<SeriesField> fields() const override {
     std::vector<double> wave_numbers;
-    for (const double edge : gas_.box)
+    for (const double edge : gas_.box.edges())
       for (std::size_t n = 1; n <= waves; ++n) {
         wave_numbers.push_back(2 * std::numbers::pi * double(n) / edge);
       }
@@ -45,7 +45,7 @@ class StructureFactor : public Observable {
       const Vector& r = now.state.position[i];
       Sums& sums = by_species[composition.is_mixture() ? now.state.species[i] : 0];
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double phase = 2 * std::numbers::pi * (r[axis] / gas_.box[axis]);
+        const double phase = 2 * std::numbers::pi * (r[axis] / gas_.box.edge(axis));
         const Complex first(std::cos(phase), std::sin(phase));
         Complex wave = first;
         for (Complex& sum : sums[axis]) {

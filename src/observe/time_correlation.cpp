@@ -118,7 +118,7 @@ class TimeCorrelation : public Observable {
   void sample(const Snapshot& now, Row& row) override {
     const std::uint64_t number = samples_++;
     std::erase_if(kept_, [&](const Then& then) { return !is_needed(then.sample, number); });
-    kept_.push_back({number, now.totals.time, unwrapped(now.state, gas_.box), now.state.orientation,
+    kept_.push_back({number, now.totals.time, unwrapped(now.state), now.state.orientation,
                      now.state.velocity, now.state.angular_velocity});
     std::vector<Means> means;
     for (const LagInSamples& lag : lags_in_samples) {

@@ -96,7 +96,7 @@ class WallProfiles : public Observable {
       put([&](const SlabSums& slab, const Slabs&) { return factor * (slab.*sum / slab.count); });
     };
     put([&](const SlabSums& slab, const Slabs& slabs) {
-      return slab.count / (gas_.volume() / gas_.box[slabs.axis] * slabs.thickness);
+      return slab.count / (gas_.volume() / gas_.box.edge(slabs.axis) * slabs.thickness);
     });
     put_mean(&SlabSums::v_normal, 1);
     put_mean(&SlabSums::v2, gas_.mass / 3);

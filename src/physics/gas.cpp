@@ -8,6 +8,7 @@
 #include "kernels/power_of_two.h"
 #include "needlework/error.h"
 #include "src/physics/director.h"
+#include "src/physics/vectors.h"
 
 namespace needlework {
 namespace {
@@ -48,13 +49,20 @@ namespace {
   pair.fall = first_is_earlier ? kernels::Fall{gain, fall} : kernels::Fall{-gain, -fall};
 }
 
+[[noreturn, gnu::cold]] void refuse_boxes(Id id) {
+  throw InvalidStateError("needle " + std::to_string(id.value) + " crosses more than " +
+                              std::to_string(most_boxes) +
+                              " boxes along one axis, the most that are counted: expected an "
+                              "earlier end of the run, or a larger box",
+                          {{id.value, id.value}});
+}
+
 // By how much coordinates along axes with walls exceed the edges. [L]
-double outside_box(const Gas& gas, const Vec3d& place) {
+double outside_box(const Box& box, const Vec3d& place) {
   const double coordinates[] = {place.x, place.y, place.z};
   double out = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto each = static_cast<std::size_t>(axis);
-    if (gas.walled[each]) out += std::max(0.0, std::abs(coordinates[axis]) - gas.box[each]);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!box.is_periodic(axis)) out += std::max(0.0, std::abs(coordinates[axis]) - box.edge(axis));
   }
   return out;
 }
@@ -71,16 +79,15 @@ kernels::Pair make_pair(const Gas& gas, Needle a, const Record& record_a, Needle
   if (record_b.time != start)
     pair.elapsed_second = gas.clock.exact_difference(start, record_b.time);
   if (!same(shift, Shift{})) {
-    pair.shift = {two_prod(shift[0], gas.box[0]), two_prod(shift[1], gas.box[1]),
-                  two_prod(shift[2], gas.box[2])};
+    pair.shift = gas.box_at(start).image<DoubleDouble>(shift).place;
   }
   pair.touch_within = gas.touch_tolerance();
   if (gas.falls) {
     add_fall(pair, gas.gravity);
     // Beyond an open side, to which needles come that fall back, coordinates round more than in the
     // box.
-    pair.touch_within += 0x1p-44 * std::max(outside_box(gas, record_a.flight.r),
-                                            outside_box(gas, record_b.flight.r));
+    pair.touch_within += 0x1p-44 * std::max(outside_box(gas.box, record_a.flight.r),
+                                            outside_box(gas.box, record_b.flight.r));
   }
   // The touch is in the later record. If both records were made at the same time, it may be in
   // either.
@@ -109,29 +116,14 @@ void Gas::add_touch(Needle i, const RecordedTouch& touch) {
   ++record.touch_count;
 }
 
-Wrapped wrap_from_outside(double x, double box) {
-  double boxes = std::floor(x / box);
-  const auto place = [&] { return to_double(DoubleDouble(x) - two_prod(boxes, box)); };
-  double out = boxes == 0 ? x : place();
-  if (out < 0) {  // x / box has been rounded up
-    boxes -= 1;
-    out = place();
+Shift add_boxes(const Shift& image, const Boxes& boxes, Id id) {
+  Shift out;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double sum = image[axis] + boxes[axis];
+    if (!(std::abs(sum) <= most_boxes)) refuse_boxes(id);
+    out[axis] = static_cast<std::int32_t>(sum);
   }
-  if (out >= box) {  // so little below the border that rounding reaches it
-    boxes += 1;
-    out = 0;
-  }
-  return {out, boxes};
-}
-
-std::int32_t add_boxes(std::int32_t image, double boxes, Id id) {
-  const double sum = image + boxes;
-  if (std::abs(sum) <= most_boxes) return static_cast<std::int32_t>(sum);
-  throw InvalidStateError("needle " + std::to_string(id.value) + " crosses more than " +
-                              std::to_string(most_boxes) +
-                              " boxes along one axis, the most that are counted: expected an "
-                              "earlier end of the run, or a larger box",
-                          {{id.value, id.value}});
+  return out;
 }
 
 void Gas::let_slide() {
@@ -156,25 +148,19 @@ Shift renew_record(Gas& gas, Needle i, Time now, const NewFlight& flight) {
 Shift renew_record_from(Gas& gas, Needle i, Time now, const Vec3d& centre,
                         const NewFlight& flight) {
   Record& record = gas.records[i];
-  double r[3] = {centre.x, centre.y, centre.z};
-  Shift wraps{}, image = gas.images[i];
-  for (int axis = 0; axis < 3; ++axis) {
-    const Wrapped wrapped = wrap(gas, r[axis], axis);
-    r[axis] = wrapped.place;
-    image[axis] = add_boxes(image[axis], wrapped.boxes, gas.ids[i]);
-    wraps[axis] = static_cast<std::int32_t>(wrapped.boxes);
-  }
-  gas.images[i] = image;
-  record.flight.r = {r[0], r[1], r[2]};
+  const Box& box = gas.box_at(now);
+  const auto [place, boxes] = box.wrap(to_array(centre));
+  gas.images[i] = add_boxes(gas.images[i], boxes, gas.ids[i]);
+  record.flight.r = vector_of(place);
   record.flight.u = normalised(flight.director);
-  record.flight.v = flight.velocity;
+  record.flight.v = flight.velocity - box.image(boxes).velocity;
   record.flight.w = project_out(flight.angular_velocity, record.flight.u);
   set_rotation(record.flight);
   record.time = now;
   record.renewal = renewal_time(gas, record, flight.length);
   record.touch_count = 0;
   ++record.serial;
-  return wraps;
+  return shift_of(boxes);
 }
 
 }  // namespace needlework

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernels/contact_function.h"
+#include "src/box/box.h"
 #include "src/memory/large_array.h"
 #include "src/physics/clock.h"
 #include "src/physics/columns.h"
@@ -26,13 +27,12 @@ struct Gas {
   LargeArray<Shift> images;  ///< total number of boxes by which each centre has been wrapped
   std::unique_ptr<FurtherTouches> further_touches = std::make_unique<FurtherTouches>();
   Clock clock;
-  std::array<double, 3> box{};
-  std::array<bool, 3> walled{};  ///< axes with a wall: they have no periodic images
-  Vec3d gravity{};               ///< acceleration of all needles [L / time^2]
-  bool falls = false;            ///< gravity is not 0
-  Vec3d pull{};                  ///< gravity along periodic axes, where it has no potential
-  Columns columns;               ///< what effects keep for each needle
-  Composition composition;       ///< indexed by Record::species
+  Box box;                  ///< its edges, and which axes are periodic: those without walls
+  Vec3d gravity{};          ///< acceleration of all needles [L / time^2]
+  bool falls = false;       ///< gravity is not 0
+  Vec3d pull{};             ///< gravity along periodic axes, where it has no potential
+  Columns columns;          ///< what effects keep for each needle
+  Composition composition;  ///< indexed by Record::species
   std::vector<Body> bodies = {body_of(Species{})};  ///< of the same species
   double longest = 1;                               ///< largest extent of a species [L]
   std::unique_ptr<Slides> slides;  ///< null where needles do not slide on each other
@@ -41,14 +41,10 @@ struct Gas {
   double margin = 0;
 
   std::size_t size() const { return records.size(); }
-  bool has_walls() const { return walled[0] || walled[1] || walled[2]; }
-  /// Whether an image by this shift exists.
-  bool has_image(const Shift& shift) const {
-    return !(walled[0] && shift[0] != 0) && !(walled[1] && shift[1] != 0) &&
-           !(walled[2] && shift[2] != 0);
-  }
+  /// The box at a time. Images, and what is wrapped, are those of that time.
+  const Box& box_at(Time) const { return box; }
   /// Number density [L^-3].
-  double density() const { return static_cast<double>(size()) / (box[0] * box[1] * box[2]); }
+  double density() const { return static_cast<double>(size()) / box.volume(); }
 
   void set_composition(Composition its_composition);
   /// Lets needles slide on each other. To be called after set_composition().
@@ -80,7 +76,7 @@ struct Gas {
 
   /// Largest |f| that can result from rounding two records, including what accumulates in a
   /// sequence of bounces. [L]
-  double touch_tolerance() const { return 0x1p-44 * (longest + ((box[0] + box[1]) + box[2])); }
+  double touch_tolerance() const { return 0x1p-44 * (longest + box.sum_of_edges()); }
 
   /// Adds a touch to those of needle i's record.
   void add_touch(Needle i, const RecordedTouch& touch);
@@ -99,25 +95,12 @@ inline Time renewal_time(const Gas& gas, const Record& record, double length) {
   return gas.clock.add(record.time, gas.motion(record).lasts(length));
 }
 
-/// A coordinate in [0, box), and the number of boxes subtracted, a whole number.
-struct Wrapped {
-  double place;
-  double boxes;
-};
-Wrapped wrap_from_outside(double x, double box);
-inline Wrapped wrap(double x, double box) {
-  return x >= 0 && x < box ? Wrapped{x, 0} : wrap_from_outside(x, box);
-}
-/// The same along an axis of a gas, whose coordinates stay as they are if it has a wall.
-inline Wrapped wrap(const Gas& gas, double x, int axis) {
-  return gas.walled[axis] ? Wrapped{x, 0} : wrap(x, gas.box[axis]);
-}
 /// Most boxes by which the centre of a record has been wrapped along an axis. Files hold up to
 /// 2^31 - 1, and until its record is renewed a needle crosses no more than 2^11.
 inline constexpr std::int32_t most_boxes = 0x7fffffff - (1 << 11);
-/// The number of boxes that a needle has crossed along an axis, with those just subtracted. Throws
+/// The number of boxes that a needle has crossed, with those just subtracted. Throws
 /// InvalidStateError beyond `most_boxes`.
-std::int32_t add_boxes(std::int32_t image, double boxes, Id id);
+Shift add_boxes(const Shift& image, const Boxes& boxes, Id id);
 
 /// The start of a new record. Its position follows from the motion of the old one.
 struct NewFlight {

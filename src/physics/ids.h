@@ -1,7 +1,6 @@
 // The two numbers of a needle: its place in storage, and its id.
 #pragma once
 
-#include <array>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -37,17 +36,5 @@ struct Id {
   friend constexpr bool operator==(Id, Id) = default;
   friend constexpr auto operator<=>(Id, Id) = default;
 };
-
-/// Number of boxes added to a needle's recorded centre along each axis.
-using Shift = std::array<std::int32_t, 3>;
-/// a == b, without a call of memcmp.
-inline bool same(const Shift& a, const Shift& b) {
-  return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
-}
-inline Shift operator-(const Shift& a) { return {-a[0], -a[1], -a[2]}; }
-inline Shift operator-(const Shift& a, const Shift& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-inline Shift operator+(const Shift& a, const Shift& b) { return a - (-b); }
 
 }  // namespace needlework

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernels/contact_function.h"
+#include "src/box/box.h"
 #include "src/physics/clock.h"
 #include "src/physics/ids.h"
 #include "src/physics/species.h"

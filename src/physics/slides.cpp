@@ -43,16 +43,16 @@ Slide make_slide(const Gas& gas, const Record& first, const Record& second, cons
                  int side) {
   const kernels::SlidingBodies bodies = sliding_bodies(gas, first, second);
   const kernels::Flight &a = first.flight, &b = second.flight;
-  const Vec3d image{shift[0] * gas.box[0], shift[1] * gas.box[1], shift[2] * gas.box[2]};
+  const Image<double> image = gas.box_at(first.time).image(shift);
   Slide out;
   out.side = side;
-  out.apart = (a.r - b.r) - image;
+  out.apart = (a.r - b.r) - image.place;
   const double mass = bodies.first.mass + bodies.second.mass;
   out.drift = (a.v * bodies.first.mass + b.v * bodies.second.mass) * (1 / mass);
   out.share[0] = bodies.second.mass / mass;
   out.share[1] = bodies.first.mass / mass;
   const kernels::SlidingState begin =
-      kernels::in_contact(bodies, {out.apart, a.v - b.v, a.u, b.u, a.w, b.w});
+      kernels::in_contact(bodies, {out.apart, (a.v - b.v) - image.velocity, a.u, b.u, a.w, b.w});
   // Not to the time at which the records would be renewed.
   const auto lasts = [&](const Record& record) {
     return 0.5 * gas.motion(record).lasts(2 * gas.bodies[record.species].half_length);

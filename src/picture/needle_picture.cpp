@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "src/box/box.h"
 #include "src/picture/needle_values.h"
 #include "src/picture/stroke_font.h"
 #include "src/picture/walls.h"
@@ -55,6 +56,7 @@ class Painter {
  public:
   Painter(const State& state, const NeedlePicture& settings)
       : state_(state),
+        box_(box_of(state)),
         settings_(settings),
         theme_(theme_of(settings.dark)),
         unit_(std::max(least_unit, std::min(settings.width, settings.height) / 832.0)),
@@ -146,17 +148,10 @@ class Painter {
     }
   }
 
-  Vector in_box(Vector point) const {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (!state_.periodic[axis]) continue;
-      point[axis] -= state_.box[axis] * std::floor(point[axis] / state_.box[axis]);
-    }
-    return point;
-  }
-
   void draw_needles(const NeedleValues& values) {
     std::vector<Seen> middles;
-    for (const Vector& centre : state_.position) middles.push_back(camera_.see(in_box(centre)));
+    for (const Vector& centre : state_.position)
+      middles.push_back(camera_.see(box_.wrap(centre).place));
     std::vector<std::size_t> order(state_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -172,7 +167,8 @@ class Painter {
   void draw_needle(std::size_t i, const Seen& middle, Colour colour) {
     const std::size_t species = state_.species.empty() ? 0 : state_.species[i];
     const double length = settings_.lengths.at(species);
-    std::array<Vector, 2> ends{in_box(state_.position[i]), in_box(state_.position[i])};
+    const Vector centre = box_.wrap(state_.position[i]).place;
+    std::array<Vector, 2> ends{centre, centre};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double half = length / 2 * state_.orientation[i][axis];
       ends[0][axis] -= half;
@@ -255,6 +251,7 @@ class Painter {
   }
 
   const State& state_;
+  Box box_;
   const NeedlePicture& settings_;
   Theme theme_;
   double unit_;  // of what is drawn, in pixels: 1 in a picture of the usual size

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "src/box/box.h"
 #include "src/picture/camera.h"
 
 namespace needlework::picture {
@@ -50,10 +51,11 @@ std::vector<double> alignments(const State& state) {
 // Finds the centres around each centre, with cells at least as wide as the radius.
 class Neighbours {
  public:
-  Neighbours(const State& state, double radius) : state_(state), radius_(radius) {
+  Neighbours(const State& state, double radius)
+      : state_(state), box_(box_of(state)), radius_(radius) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       count_[axis] =
-          static_cast<std::size_t>(std::clamp(std::floor(state.box[axis] / radius), 1.0, 200.0));
+          static_cast<std::size_t>(std::clamp(std::floor(box_.edge(axis) / radius), 1.0, 200.0));
     }
     cells_.resize(count_[0] * count_[1] * count_[2]);
     for (std::size_t i = 0; i < state.size(); ++i) {
@@ -93,25 +95,22 @@ class Neighbours {
     return (cell[2] * count_[1] + cell[1]) * count_[0] + cell[0];
   }
   Cell cell_of(std::size_t i) const {
+    const Vector share = box_.share(state_.position[i]);
     Cell cell;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double share = state_.position[i][axis] / state_.box[axis];
-      const double place = (share - std::floor(share)) * static_cast<double>(count_[axis]);
+      const double place = share[axis] * static_cast<double>(count_[axis]);
       cell[axis] = std::min(static_cast<std::size_t>(place), count_[axis] - 1);
     }
     return cell;
   }
   bool are_near(std::size_t i, std::size_t j) const {
-    double squared = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      double d = state_.position[i][axis] - state_.position[j][axis];
-      if (state_.periodic[axis]) d -= state_.box[axis] * std::round(d / state_.box[axis]);
-      squared += d * d;
-    }
-    return squared < radius_ * radius_;
+    const Vector &a = state_.position[i], &b = state_.position[j];
+    const Vec3d apart = box_.shortest({a[0] - b[0], a[1] - b[1], a[2] - b[2]});
+    return dot(apart, apart) < radius_ * radius_;
   }
 
   const State& state_;
+  Box box_;
   double radius_;
   Cell count_;
   std::vector<std::vector<std::size_t>> cells_;

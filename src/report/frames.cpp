@@ -8,6 +8,7 @@
 #include <ranges>
 
 #include "needlework/h5md.h"
+#include "src/box/box.h"
 #include "src/picture/needle_values.h"
 #include "src/picture/walls.h"
 
@@ -22,9 +23,8 @@ using Vector = std::array<double, 3>;
 float length_of(const Vector& a) { return static_cast<float>(std::hypot(a[0], a[1], a[2])); }
 
 // Between the ends of what is drawn along an axis, in units of its length / 65536.
-std::uint16_t place_between(double low, double high, double place, bool periodic) {
-  double share = (place - low) / (high - low);
-  if (periodic) share -= std::floor(share);
+std::uint16_t place_between(double low, double high, double place) {
+  const double share = (place - low) / (high - low);
   return static_cast<std::uint16_t>(std::clamp(std::floor(share * 65536), 0.0, 65535.0));
 }
 
@@ -80,13 +80,14 @@ void include(picture::Region& region, const picture::Region& other, const State&
 Json frame_of(const State& state, std::span<const picture::WallSurface> walls,
               const picture::Region& drawn, std::span<const std::size_t> chosen,
               std::size_t flow_axis, Arrays& arrays) {
+  const Box box = box_of(state);
   std::vector<std::uint16_t> position;
   std::vector<std::int16_t> orientation;
   std::vector<float> speed, spin;
   for (const std::size_t i : chosen) {
+    const Vector place = box.wrap(state.position[i]).place;
     for (std::size_t a = 0; a < 3; ++a) {
-      position.push_back(
-          place_between(drawn.low[a], drawn.high[a], state.position[i][a], state.periodic[a]));
+      position.push_back(place_between(drawn.low[a], drawn.high[a], place[a]));
       orientation.push_back(
           static_cast<std::int16_t>(std::lround(32767 * state.orientation[i][a])));
     }

@@ -11,6 +11,7 @@
 #include "src/composition/convex_body.h"
 #include "src/machine/stop_request.h"
 #include "src/random/needle_random.h"
+#include "src/scene/box_of.h"
 #include "src/scene/confinement.h"
 #include "src/scene/rod_grid.h"
 #include "src/scene/rod_lattice.h"
@@ -163,6 +164,7 @@ class Velocities {
 State without_velocities(const Scene& scene, std::size_t count) {
   State state;
   state.box = scene.needles.box;
+  state.periodic = scene.periodic();
   state.position.resize(count);
   state.velocity.resize(count);
   state.orientation.resize(count);
@@ -213,7 +215,7 @@ Insertion insert_rods(const Scene& scene, std::uint64_t most_tries, double most_
   Insertion out{without_velocities(scene, composition.count()), 0, 0};
   const std::vector<SpeciesIndex> species = composition.in_order_of_id();
   const std::array<Gap, 3> gaps = gaps_of(scene);
-  RodGrid grid(composition, out.state.box, scene.periodic(), species.size());
+  RodGrid grid(composition, box_of(scene), species.size());
   for (const std::size_t id : largest_first(composition, species)) {
     NeedleRandom random(scene.needles.seed, id);
     bool placed = false;

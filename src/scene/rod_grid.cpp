@@ -38,10 +38,8 @@ double gap_of(const kernels::RodPair& pair, const Vec3d& apart, double reach) {
 
 }  // namespace
 
-RodGrid::RodGrid(const Composition& composition, const std::array<double, 3>& box,
-                 const std::array<bool, 3>& periodic, std::size_t rods)
-    : composition_(composition), box_(box), periodic_(periodic) {
-  const double volume = box[0] * box[1] * box[2];
+RodGrid::RodGrid(const Composition& composition, const Box& box, std::size_t rods)
+    : composition_(composition), box_(box) {
   for (const Species& species : composition.species()) {
     const auto found = std::ranges::find(levels_, species.extent(), &Level::extent);
     level_of_species_.push_back(static_cast<std::size_t>(found - levels_.begin()));
@@ -57,11 +55,11 @@ RodGrid::RodGrid(const Composition& composition, const std::array<double, 3>& bo
     // About one rod in each cell, and none shorter than what is in contact.
     const double side =
         std::max(level.extent * (1 + 0x1p-20),
-                 std::cbrt(volume / static_cast<double>(std::max<std::uint64_t>(1, count))));
+                 std::cbrt(box.volume() / static_cast<double>(std::max<std::uint64_t>(1, count))));
     std::int64_t cells = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      level.counts[axis] =
-          std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(box[axis] / side, 1e6)));
+      level.counts[axis] = std::max<std::int64_t>(
+          1, static_cast<std::int64_t>(std::min(box.edge(axis) / side, 1e6)));
       cells *= level.counts[axis];
     }
     level.first.assign(static_cast<std::size_t>(cells), none);
@@ -70,11 +68,10 @@ RodGrid::RodGrid(const Composition& composition, const std::array<double, 3>& bo
 }
 
 RodGrid::Cell RodGrid::cell_of(const Level& level, const Vec3d& r) const {
-  const double place[3] = {r.x, r.y, r.z};
+  const std::array<double, 3> place = box_.wrap({r.x, r.y, r.z}).place;
   Cell out;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    double share = place[axis] / box_[axis];
-    if (periodic_[axis]) share -= std::floor(share);
+    const double share = place[axis] / box_.edge(axis);
     const auto cell = static_cast<std::int64_t>(std::clamp(share, 0.0, 1.0) *
                                                 static_cast<double>(level.counts[axis]));
     out[axis] = std::min(cell, level.counts[axis] - 1);
@@ -95,12 +92,12 @@ void RodGrid::for_each_near(const Level& level, const Vec3d& r, double reach,
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::int64_t all = level.counts[axis];
     // One more than that many sides, as rounding may put a centre into the next cell.
-    const auto away =
-        static_cast<std::int64_t>(reach * (1 + 0x1p-20) / box_[axis] * static_cast<double>(all)) +
-        1;
+    const auto away = static_cast<std::int64_t>(reach * (1 + 0x1p-20) / box_.edge(axis) *
+                                                static_cast<double>(all)) +
+                      1;
     first[axis] = cell[axis] - away;
     count[axis] = 2 * away + 1;
-    if (!periodic_[axis]) {
+    if (!box_.is_periodic(axis)) {
       const std::int64_t last = std::min(all - 1, cell[axis] + away);
       first[axis] = std::max<std::int64_t>(0, first[axis]);
       count[axis] = last - first[axis] + 1;
@@ -129,15 +126,12 @@ void RodGrid::visit_overlaps(const std::array<double, 3>& centre,
                              const std::array<double, 3>& director, SpeciesIndex species,
                              double tolerance, Visit&& visit) const {
   const kernels::Flight flight = at_rest(centre, director);
-  const auto image = [&](double apart, std::size_t axis) {
-    return periodic_[axis] ? box_[axis] * std::nearbyint(apart / box_[axis]) : 0;
-  };
   const Species& its = composition_[species];
   const auto compare = [&](std::uint32_t i) {
     const Rod& other = rods_[i];
     const Vec3d apart = flight.r - other.flight.r;
-    const Vec3d shift{image(apart.x, 0), image(apart.y, 1), image(apart.z, 2)};
-    const Vec3d nearest = apart - shift;
+    const Vec3dd shift = box_.image<DoubleDouble>(box_.nearest(apart)).place;
+    const Vec3d nearest = apart - to_double(shift);
     const Species& others = composition_[other.species];
     const double distance = composition_.contact_distance(species, other.species);
     const double reach = 0.5 * (its.length + others.length) + distance;
@@ -145,7 +139,7 @@ void RodGrid::visit_overlaps(const std::array<double, 3>& centre,
     kernels::RodPair pair;
     pair.first = &flight;
     pair.second = &other.flight;
-    pair.shift = to_double_double(shift);
+    pair.shift = shift;
     pair.half_first = 0.5 * its.length;
     pair.half_second = 0.5 * others.length;
     pair.distance = distance;

@@ -9,6 +9,7 @@
 
 #include "kernels/contact_function.h"
 #include "needlework/composition.h"
+#include "src/box/box.h"
 
 namespace needlework {
 
@@ -17,8 +18,7 @@ class RodGrid {
  public:
   /// `composition` must outlive the grid. Every edge of the box is at least twice the largest
   /// extent along periodic axes.
-  RodGrid(const Composition& composition, const std::array<double, 3>& box,
-          const std::array<bool, 3>& periodic, std::size_t rods);
+  RodGrid(const Composition& composition, const Box& box, std::size_t rods);
 
   /// A rod that overlaps one that has been entered.
   struct Overlap {
@@ -63,8 +63,7 @@ class RodGrid {
   void for_each_near(const Level& level, const Vec3d& r, double reach, const Visit& visit) const;
 
   const Composition& composition_;
-  std::array<double, 3> box_;
-  std::array<bool, 3> periodic_;
+  Box box_;
   std::vector<Level> levels_;
   std::vector<std::size_t> level_of_species_;
   std::vector<Rod> rods_;

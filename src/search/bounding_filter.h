@@ -29,10 +29,11 @@ class BoundingFilter {
   void operator()(Needle j, const Shift& shift, Visit&& visit) {
     ++counters_.candidates;
     const auto other = gas_.motion_from(gas_.records[j], now_);
-    const Vec3d image{shift[0] * gas_.box[0], shift[1] * gas_.box[1], shift[2] * gas_.box[2]};
-    const Vec3d r = (centre_ - other.centre()) - image;
+    const Image<double> image = gas_.box_at(now_).image(shift);
+    const Vec3d r = (centre_ - other.centre()) - image.place;
+    const Vec3d v = (v_ - other.velocity()) - image.velocity;
     const double reach = reach_ + lengths_.reach(j);
-    if (kernels::spheres_stay_apart(r, v_ - other.velocity(), reach, ahead_)) {
+    if (kernels::spheres_stay_apart(r, v, reach, ahead_)) {
       ++counters_.filtered;
     } else {
       ahead_ = visit(j, shift, 0.0);

@@ -33,8 +33,9 @@ constexpr double cells_per_needle = 2;
 
 // The grid that a class wishes for.
 CellGrid grid_for(const Gas& gas, const SearchSetup& setup, const SizeClass& one) {
-  if (setup.cell_side) return CellGrid(gas.box, one.cell_side, one.count);
-  return CellGrid(gas.box, one.cell_side, one.count, setup.count_multiples, cells_per_needle,
+  if (setup.cell_side) return CellGrid(gas.box.edges(), one.cell_side, one.count);
+  return CellGrid(gas.box.edges(), one.cell_side, one.count, setup.count_multiples,
+                  cells_per_needle,
                   one.kind == BoundingVolume::cell ? CellFit::at_least : CellFit::nearest);
 }
 
@@ -56,7 +57,7 @@ CellGrid division_near(const Gas& gas, const CellGrid& common, const CellGrid& w
     const double parts = static_cast<double>(wished.counts()[axis]) / counts[axis];
     counts[axis] *= std::max(1, static_cast<std::int32_t>(parts + 0.5));
   }
-  return CellGrid::of_counts(gas.box, counts);
+  return CellGrid::of_counts(gas.box.edges(), counts);
 }
 
 // Whether lists of neighbours can hold by how many cells two balls that overlap are apart.
@@ -97,7 +98,7 @@ ClassCells::ClassCells(const Gas& gas, const SizeClass& sizes, const CellGrid& i
 BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, BoundingVolume kind)
     : gas(all),
       falls(all.falls),
-      walled(all.has_walls()),
+      walled(!all.box.is_periodic()),
       per_length(1 / needlework::unit_of_length(all)),
       places(all.size()),
       motions(all.size()) {
@@ -106,7 +107,7 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
   std::vector<CellGrid> wished;
   for (const SizeClass& each : sizes.all) wished.push_back(grid_for(gas, setup, each));
   const bool one = wished.size() == 1;
-  grid = one ? wished.front() : coarsest(wished, gas.box);
+  grid = one ? wished.front() : coarsest(wished, gas.box.edges());
   for (std::size_t c = 0; c < wished.size(); ++c) {
     const CellGrid its_grid = one ? grid : division_near(gas, grid, wished[c]);
     classes.push_back(std::make_unique<ClassCells>(gas, sizes.all[c], its_grid, per_length));
@@ -191,7 +192,7 @@ bool BoundingVolumes::place_in_ball(Needle i, Time now, bool& is_new) {
   const Vec3d centre = kernels::centre_after(record.flight, elapsed), v = record.flight.v;
   ClassCells& own = class_of(i);
   Ball& ball = balls[i];
-  if (const Shift& image = gas.images[i]; !same(ball.image, image)) follow_wraps(i, image);
+  if (const Shift& image = gas.images[i]; !same(ball.image, image)) follow_wraps(i, image, now);
   const double square = own.radius * own.radius;
   Vec3d from = centre - ball.centre;
   double room = square - dot(from, from);
@@ -220,14 +221,12 @@ void BoundingVolumes::leave_balls() {
 }
 
 // The record of a sphere has been wrapped: its ball and its cell are seen in its frame.
-void BoundingVolumes::follow_wraps(Needle i, const Shift& image) {
+void BoundingVolumes::follow_wraps(Needle i, const Shift& image, Time now) {
   Ball& ball = balls[i];
   const Shift wraps = image - ball.image;
-  ball.centre =
-      ball.centre - Vec3d{wraps[0] * gas.box[0], wraps[1] * gas.box[1], wraps[2] * gas.box[2]};
+  ball.centre = ball.centre - gas.box_at(now).image(wraps).place;
   ball.image = image;
-  const auto counts = class_of(i).grid.counts();
-  for (int axis = 0; axis < 3; ++axis) places[i].cell[axis] -= wraps[axis] * counts[axis];
+  places[i].cell = class_of(i).grid.image_of(places[i].cell, -wraps);
 }
 
 void BoundingVolumes::prepare(Time now, int threads) {

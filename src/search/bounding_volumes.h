@@ -135,7 +135,7 @@ struct BoundingVolumes {
   void rebase(Time now, int threads);
   template <bool falls>
   bool place_one(Needle i, Time now, double half_length);
-  void follow_wraps(Needle i, const Shift& image);
+  void follow_wraps(Needle i, const Shift& image, Time now);
   struct Path {
     Vec3d centre, velocity;
   };

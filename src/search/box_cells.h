@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/physics/gas.h"
+#include "src/physics/vectors.h"
 
 namespace needlework {
 
@@ -25,14 +26,12 @@ std::vector<std::uint64_t> keys_of_cells(const Gas& gas, Time now,
   keys.reserve(gas.size());
   for (const Record& record : gas.records) {
     const Vec3d r = gas.motion_from(record, now).centre();
-    const double place[3] = {r.x, r.y, r.z};
+    const std::array<double, 3> share = gas.box_at(now).share(to_array(r));
     BoxCell cell;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double share = place[axis] / gas.box[axis];
       // A share just below a whole number is rounded up to it.
       const double last = std::ceil(cells[axis]) - 1;
-      cell[axis] =
-          static_cast<std::uint64_t>(std::min((share - std::floor(share)) * cells[axis], last));
+      cell[axis] = static_cast<std::uint64_t>(std::min(share[axis] * cells[axis], last));
     }
     keys.push_back(key(cell));
   }

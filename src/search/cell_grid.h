@@ -10,6 +10,7 @@
 
 #include "kernels/four.h"
 #include "kernels/vec3.h"
+#include "src/box/box.h"
 #include "src/physics/motion.h"
 
 namespace needlework {
@@ -150,10 +151,24 @@ class CellGrid {
   }
 
   /// Number of boxes to add to a centre in cell `from` to move it to `to`, an image of that cell.
-  std::array<std::int32_t, 3> boxes_between(const Cell& to, const Cell& from) const {
+  Shift boxes_between(const Cell& to, const Cell& from) const {
     if (to[0] == from[0] && to[1] == from[1] && to[2] == from[2]) return {};
     return {(to[0] - from[0]) / count_[0], (to[1] - from[1]) / count_[1],
             (to[2] - from[2]) / count_[2]};
+  }
+
+  /// The cell that many boxes from a cell.
+  Cell image_of(const Cell& cell, const Shift& boxes) const {
+    return {cell[0] + boxes[0] * count_[0], cell[1] + boxes[1] * count_[1],
+            cell[2] + boxes[2] * count_[2]};
+  }
+  /// The shortest way from an image of one centre to another, which are `in_sides` apart. [L]
+  Vec3d shortest(const Vec3d& in_sides) const {
+    const auto along = [&](double gap, int axis) {
+      const double count = count_[axis];
+      return (gap - std::nearbyint(gap / count) * count) * side_[axis];
+    };
+    return {along(in_sides.x, 0), along(in_sides.y, 1), along(in_sides.z, 2)};
   }
 
   /// Time until a centre that moves like this is out of the cell by `margin` [L]. Then it is in

@@ -9,7 +9,7 @@ namespace {
 // A needle stays in its cell until it is out of it by so much, which rounding of its centre in a
 // wide box must not undo.
 double margin_of(const Gas& gas) {
-  return 0x1p-30 * gas.longest + 0x1p-48 * std::max({gas.box[0], gas.box[1], gas.box[2]});
+  return 0x1p-30 * gas.longest + 0x1p-48 * gas.box.longest_edge();
 }
 
 }  // namespace
@@ -18,9 +18,9 @@ LinkedLists::LinkedLists(const Gas& gas, Counters& counters, const SearchSetup& 
     : gas_(gas), counters_(counters), margin_(margin_of(gas)), place_(gas.size()) {
   // Cells much emptier than one needle each would only cost memory and crossings.
   const double needles = std::max<double>(1, static_cast<double>(gas.size()));
-  const double volume = gas.box[0] * gas.box[1] * gas.box[2];
+  const double volume = gas.box.volume();
   const double side = setup.cell_side.value_or(std::cbrt(volume / (2 * needles)));
-  grid_ = CellGrid(gas.box, std::max(gas.longest + 4 * margin_, side), gas.size());
+  grid_ = CellGrid(gas.box.edges(), std::max(gas.longest + 4 * margin_, side), gas.size());
   head_.assign(grid_.size(), no_needle);
 }
 

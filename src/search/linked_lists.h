@@ -44,7 +44,7 @@ class LinkedLists {
         // at the other wall hold no neighbours.
         if (j == i) continue;
         const Shift shift = grid_.boxes_between(cell, place_[j].cell);
-        if (gas_.has_image(shift)) filter(j, shift, visit);
+        if (gas_.box.has_image(shift)) filter(j, shift, visit);
       }
     });
   }

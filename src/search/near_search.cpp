@@ -569,7 +569,7 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, const Ju
   // Cells that come round to those at the other wall hold no neighbours.
   if (volumes.walled) {
     std::erase_if(candidates_, [&](const Candidate& candidate) {
-      return !volumes.gas.has_image(candidate.shift);
+      return !volumes.gas.box.has_image(candidate.shift);
     });
   }
   counters_.filtered += entries - candidates_.size();

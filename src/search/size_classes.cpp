@@ -39,7 +39,7 @@ double seen_within(double reach, double density) {
 bool are_alike(const Gas& gas, double longest, double lengths, double count) {
   const double mean = lengths / count;
   if (!gas.composition.are_spheres()) return longest <= most_over_mean * mean;
-  const double density = count / (gas.box[0] * gas.box[1] * gas.box[2]);
+  const double density = count / gas.box.volume();
   return seen_within(0.5 * (longest + mean), density) - seen_within(mean, density) <=
          most_seen_for_sizes;
 }

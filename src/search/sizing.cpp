@@ -31,8 +31,8 @@ double density_around(const Gas& gas, Time now) {
   double volume = 1;
   std::array<double, 3> count;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    count[axis] = std::clamp(std::floor(gas.box[axis] / side), 1.0, 0x1p20);
-    volume *= gas.box[axis] / length / count[axis];
+    count[axis] = std::clamp(std::floor(gas.box.edge(axis) / side), 1.0, 0x1p20);
+    volume *= gas.box.edge(axis) / length / count[axis];
   }
   std::vector<std::uint64_t> cells = keys_of_cells(
       gas, now, count, [](const BoxCell& cell) { return cell[0] << 42 | cell[1] << 21 | cell[2]; });

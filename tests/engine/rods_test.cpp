@@ -36,7 +36,7 @@ using test::until_time;
 // Rods of this state that overlap by more than `tolerance`.
 int overlaps(const Scene& scene, const State& state, double tolerance) {
   const Composition composition = scene.composition();
-  RodGrid grid(composition, state.box, scene.periodic(), state.size());
+  RodGrid grid(composition, box_of(state), state.size());
   int out = 0;
   const auto species = composition.in_order_of_id(state.species);
   for (std::size_t i = 0; i < state.size(); ++i) {

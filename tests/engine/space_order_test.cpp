@@ -10,7 +10,7 @@ namespace {
 TEST(SpaceOrder, IsStableAlsoInSeveralPieces) {
   constexpr std::size_t count = 1300000;
   Gas gas;
-  gas.box = {10, 10, 10};
+  gas.box = Box({10, 10, 10});
   gas.records.resize(count);
   gas.ids.resize(count);
   const auto is_far = [](std::size_t i) { return i * 2654435761u % 7 < 3; };

@@ -10,7 +10,7 @@ import layers
 # file, its include, a part of the rule that it breaks; or none
 CASES = [
     ("src/search/a.h", '"src/physics/gas.h"', None),
-    ("src/physics/a.h", '"src/search/grid.h"', "physics may use base, memory, archive, composition, kernels, not search"),
+    ("src/physics/a.h", '"src/search/grid.h"', "physics may use base, memory, archive, composition, kernels, box, not search"),
     ("src/physics/a.cpp", '"needlework/simulation.h"', "not engine"),
     ("kernels/a_body.h", '"src/physics/gas.h"', "kernels may use base, memory, not physics"),
     ("src/theory/a.cpp", '"needlework/totals.h"', "theory may use base, composition, not trajectory"),

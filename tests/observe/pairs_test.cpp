@@ -44,6 +44,7 @@ TEST(PairCorrelation, EndsAtWalls) {
   scene.walls = {{.axis = "z", .side = "low"}, {.axis = "x", .side = "both"}};
   scene.forces.gravity[2] = -1;
   State state = resting(3, pairs_box);
+  state.periodic = scene.periodic();
   state.position = {{0.5, 1, 1}, {7.5, 1, 1}, {0.5, 1, 12.5}};  // 2 apart, were x periodic
   Values values = Observed(scene).sample(state);
   for (const double g : values["g"]) EXPECT_EQ(g, 0);

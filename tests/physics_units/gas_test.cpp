@@ -174,7 +174,7 @@ TEST(MakePair, StartsAtTheLaterRecord) {
 // Above a floor, to which needles come back from beyond the box.
 TEST(MakePair, TouchesWithinWhatFarPlacesRound) {
   Gas gas = gas_of(2, {3, 4, 5});
-  gas.walled = {false, false, true};
+  gas.box = {gas.box.edges(), {true, true, false}};
   gas.gravity = {0, 0, -1};
   gas.falls = true;
   const auto within = [&](double height) {
@@ -321,29 +321,6 @@ TEST(Gas, KnowsTheBodiesOfItsSpecies) {
   gas.records[1].species = 1;
   EXPECT_EQ(gas.species_of(gas.records[0]).length, 0.5);
   EXPECT_EQ(gas.species_of(gas.records[1]).length, 3);
-}
-
-TEST(Wrap, IsInTheBoxToTheLastBit) {
-  for (const double box : {8.0, 5.0, 2.01, 10.1}) {
-    for (const double boxes : {-500.0, -1.0, 0.0, 1.0, 3.0, 497.0}) {
-      const double border = boxes * box;
-      for (const double x : {border, std::nextafter(border, 1e4), std::nextafter(border, -1e4),
-                             border - 5e-324, border - 1e-20, border + 1e-20}) {
-        const Wrapped wrapped = wrap(x, box);
-        EXPECT_GE(wrapped.place, 0) << x;
-        EXPECT_LT(wrapped.place, box) << x;
-        const Wide moved = Wide(box) * wrapped.boxes + wrapped.place - x;
-        EXPECT_LE(abs(moved), box * 0x1p-53) << x;
-      }
-    }
-  }
-}
-
-TEST(Shift, AddsAndSubtracts) {
-  const Shift a{1, -2, 3}, b{10, 20, -30};
-  EXPECT_EQ(a + b, (Shift{11, 18, -27}));
-  EXPECT_EQ(a - b, (Shift{-9, -22, 33}));
-  EXPECT_EQ(-a, (Shift{-1, 2, -3}));
 }
 
 // However few there are of each.

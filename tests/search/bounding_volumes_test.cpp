@@ -139,14 +139,15 @@ struct Moving {
       if (j == i) continue;
       const Vec3d d = mine - needle_at(gas, j, now).r;
       const auto nearest = [&](double a, int axis) {
-        return static_cast<std::int32_t>(std::round(a / gas.box[axis]));
+        return static_cast<std::int32_t>(std::round(a / gas.box.edge(axis)));
       };
       for (std::int32_t z = -2; z <= 2; ++z) {
         for (std::int32_t y = -2; y <= 2; ++y) {
           for (std::int32_t x = -2; x <= 2; ++x) {
             const Shift shift{nearest(d.x, 0) + x, nearest(d.y, 1) + y, nearest(d.z, 2) + z};
             visit(j, shift,
-                  Vec3d{shift[0] * gas.box[0], shift[1] * gas.box[1], shift[2] * gas.box[2]});
+                  Vec3d{shift[0] * gas.box.edge(0), shift[1] * gas.box.edge(1),
+                        shift[2] * gas.box.edge(2)});
           }
         }
       }

@@ -199,9 +199,9 @@ TEST(ContactsInAHugeBox, AreProposedByEverySearch) {
     // Pairs near each other, anywhere; many across borders of cells.
     for (std::size_t n = 0; n < gas.size(); n += 2) {
       const auto anywhere = [&](int axis) {
-        if (random.coin()) return gas.box[axis] * random.uniform();
+        if (random.coin()) return gas.box.edge(axis) * random.uniform();
         const double side = sides[random.below(static_cast<int>(sides.size()))][axis];
-        return side * random.below(static_cast<int>(std::lround(gas.box[axis] / side)));
+        return side * random.below(static_cast<int>(std::lround(gas.box.edge(axis) / side)));
       };
       const Vec3d r{anywhere(0), anywhere(1), anywhere(2)};
       const test::Velocities a = draw_velocities(random, {}), b = draw_velocities(random, {});

@@ -45,7 +45,7 @@ void for_each_image(const Gas& gas, Needle i, Needle j, Time now, double span, V
   const auto v = components(gas.records[i].flight.v - gas.records[j].flight.v);
   Images range[3];
   for (int axis = 0; axis < 3; ++axis) {
-    range[axis] = images(r[axis], v[axis] * span, gas.box[axis], gas.longest * (1 + 1e-9));
+    range[axis] = images(r[axis], v[axis] * span, gas.box.edge(axis), gas.longest * (1 + 1e-9));
   }
   for (std::int32_t x = range[0].first; x <= range[0].last; ++x) {
     for (std::int32_t y = range[1].first; y <= range[1].last; ++y) {
@@ -134,7 +134,8 @@ std::vector<Candidate> within_reach(const Gas& gas, Needle i, Time now) {
     if (j == i) continue;
     const Vec3d r = mine - centre(gas, j, now);
     for_each_image(gas, i, j, now, 0, [&](const Shift& shift) {
-      const Vec3d image{shift[0] * gas.box[0], shift[1] * gas.box[1], shift[2] * gas.box[2]};
+      const Vec3d image{shift[0] * gas.box.edge(0), shift[1] * gas.box.edge(1),
+                        shift[2] * gas.box.edge(2)};
       const double reach = reach_of(gas, i, j);
       if (dot(r - image, r - image) < reach * reach * (1 - 1e-12)) out.push_back({j, shift});
     });

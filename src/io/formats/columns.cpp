@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "needlework/error.h"
+#include "src/box/box.h"
 #include "src/io/decimal.h"
 #include "src/io/needle_check.h"
 
@@ -156,20 +157,26 @@ void NeedleReader::read_position(const Row& row) {
   State& state = configuration_.state;
   const Vector read = read_vector(row, *columns_.position, "position");
   Vector r = read;
-  std::array<std::int32_t, 3> image{};
+  Shift image{};
+  if (columns_.unwrapped) {
+    // Scaled positions are in a box with edges of 1, from 0 on.
+    const Box box(columns_.scaled ? Vector{1, 1, 1} : state.box, state.periodic);
+    Vector from_corner = r;
+    if (!columns_.scaled)
+      for (std::size_t axis = 0; axis < 3; ++axis) from_corner[axis] -= columns_.lower[axis];
+    const Boxes boxes = box.wrap(from_corner).boxes;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (std::abs(boxes[axis]) <= most_images) continue;
+      row.reject(fmt::format("position {} = {}: expected one at most {} boxes away", "xyz"[axis],
+                             read[axis], most_images));
+    }
+    image = shift_of(boxes);
+    // With one rounding, so that a position comes back as it was wrapped.
+    r = box.less(r, boxes);
+  }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double edge = state.box[axis], lower = columns_.lower[axis];
     const bool periodic = state.periodic[axis];
-    if (columns_.unwrapped && periodic) {
-      const double boxes = std::floor(columns_.scaled ? r[axis] : (r[axis] - lower) / edge);
-      if (!(std::abs(boxes) <= most_images)) {
-        row.reject(fmt::format("position {} = {}: expected one at most {} boxes away", "xyz"[axis],
-                               read[axis], most_images));
-      }
-      image[axis] = static_cast<std::int32_t>(boxes);
-      // With one rounding, so that a position comes back as it was wrapped.
-      r[axis] = std::fma(-boxes, columns_.scaled ? 1 : edge, r[axis]);
-    }
     // A box that is not periodic begins at 0, as walls lie at 0 and at the edge.
     if (columns_.scaled) r[axis] = (periodic ? lower : 0) + r[axis] * edge;
     if (!columns_.scaled && !periodic) r[axis] -= lower;

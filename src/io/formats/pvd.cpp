@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "needlework/error.h"
+#include "src/box/box.h"
 #include "src/io/formats/text_file.h"
 #include "src/io/formats/vtu.h"
 #include "src/io/needle_check.h"
@@ -44,17 +45,23 @@ void add_lines(VtuFile& file, const std::vector<Vector>& points) {
 }
 
 // The twelve edges, from corner 0 to the box's far corner.
-std::vector<Vector> outline(const Vector& box) {
+std::vector<Vector> outline(const Box& box) {
+  const auto edges = box.vectors();
+  const auto corner_of = [&](const std::array<int, 3>& times) {
+    Vector out{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t n = 0; n < 3; ++n) out[axis] += times[n] * edges[n][axis];
+    return out;
+  };
   std::vector<Vector> points;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (int corner = 0; corner < 4; ++corner) {
-      Vector from{};
-      from[(axis + 1) % 3] = corner % 2 * box[(axis + 1) % 3];
-      from[(axis + 2) % 3] = corner / 2 * box[(axis + 2) % 3];
-      Vector to = from;
-      to[axis] = box[axis];
-      points.push_back(from);
-      points.push_back(to);
+      std::array<int, 3> times{};
+      times[(axis + 1) % 3] = corner % 2;
+      times[(axis + 2) % 3] = corner / 2;
+      points.push_back(corner_of(times));
+      times[axis] = 1;
+      points.push_back(corner_of(times));
     }
   }
   return points;
@@ -188,7 +195,7 @@ void PvdWriter::write_needles(const std::string& name, const State& state) {
 }
 
 void PvdWriter::write_box(const std::string& name, const State& state) {
-  const std::vector<Vector> points = outline(state.box);
+  const std::vector<Vector> points = outline(box_of(state));
   VtuFile file(file_of(name), force_);
   if (state.periodic != std::array{true, true, true}) {
     const std::array<int, 3> periodic{state.periodic[0], state.periodic[1], state.periodic[2]};

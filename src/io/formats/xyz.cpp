@@ -10,6 +10,7 @@
 #include <set>
 
 #include "needlework/error.h"
+#include "src/box/box.h"
 #include "src/io/decimal.h"
 #include "src/io/formats/columns.h"
 #include "src/io/formats/input_text.h"
@@ -174,10 +175,11 @@ class XyzWriter : public FrameWriter {
 
   void add(const Frame& frame) override {
     const State& state = frame.state;
+    const auto [a, b, c] = box_of(state).vectors();
     file_.print(
-        "{}\nLattice=\"{} 0 0 0 {} 0 0 0 {}\" Properties=species:S:1:pos:R:3:id:I:1:velo:R:3:"
+        "{}\nLattice=\"{} {} {}\" Properties=species:S:1:pos:R:3:id:I:1:velo:R:3:"
         "director:R:3:angular_velocity:R:3:orientation:R:4:aspherical_shape:R:3{}",
-        state.size(), state.box[0], state.box[1], state.box[2],
+        state.size(), fmt::join(a, " "), fmt::join(b, " "), fmt::join(c, " "),
         endings_.size() > 1 ? ":needle_species:I:1" : "");
     if (frame.time) file_.print(" Time={}", *frame.time);
     const auto letter = [&](std::size_t axis) { return state.periodic[axis] ? 'T' : 'F'; };
