@@ -370,8 +370,8 @@ NEEDLEWORK_API int needlework_get_species_shape(needlework_simulation* simulatio
 /* Hits on one wall since the start. Walls are indexed in the order of the scene, where "both"
  * counts as low, then high. */
 typedef struct needlework_wall {
-  int axis;              /* 0, 1, 2 for x, y, z */
-  int high;              /* 1 at the high edge of the box, 0 at the low one */
+  int axis; /* 0, 1, 2 for x, y, z */
+  int high; /* 1 at the high edge of the box, 0 at the low one */
   /* numbers of walls */
   /* Number of hits, which are no collisions */
   uint64_t hits;
