@@ -123,6 +123,7 @@ std::string temperature_lines(const Report& report) {
   const auto totals = report.simulation.species_totals();
   const auto theory = report.species_theory_at(report.course.last);
   std::vector<std::uint64_t> counts;
+  counts.reserve(totals.size());
   for (const SpeciesTotals& each : totals) counts.push_back(each.count);
   const std::vector<std::size_t> shown = those_shown(counts);
   std::string text;

@@ -29,7 +29,8 @@ std::vector<SeriesField> fields_of(const Sums& sums,
   sums.for_each([&](const Described& number, const auto& value) {
     using Value = std::decay_t<decltype(value)>;
     if (!taken(number.name)) return;
-    SeriesField& field = out.emplace_back(number.name, number.meaning, number.unit, shape);
+    out.push_back({number.name, number.meaning, number.unit, shape});
+    SeriesField& field = out.back();
     if constexpr (std::integral<Value>) {
       field.kind = SeriesField::Kind::count;
     } else if constexpr (!std::floating_point<Value>) {

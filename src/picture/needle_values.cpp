@@ -31,6 +31,7 @@ void make_relative(NeedleValues& result, const std::string& name) {
 
 std::vector<double> lengths(const std::vector<Vector>& vectors) {
   std::vector<double> lengths;
+  lengths.reserve(vectors.size());
   for (const Vector& v : vectors) lengths.push_back(std::hypot(v[0], v[1], v[2]));
   return lengths;
 }

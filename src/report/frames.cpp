@@ -163,7 +163,8 @@ Json frames_of(const std::string& path, const BodySizes& sizes, std::span<const 
   // settles, and does not follow each needle that flies up.
   std::optional<picture::Region> later;
   std::vector<Json> backwards;
-  for (const std::size_t frame : frames | std::views::reverse) {
+  for (auto next = frames.rbegin(); next != frames.rend(); ++next) {
+    const std::size_t frame = *next;
     Json one = {{"number", frame}, {"time", nullptr}};
     const auto time = file.time(frame);
     if (time) one["time"] = *time;
@@ -175,7 +176,8 @@ Json frames_of(const std::string& path, const BodySizes& sizes, std::span<const 
     one.update(frame_of(state, surfaces, drawn, chosen, flow_axis, arrays));
     backwards.push_back(std::move(one));
   }
-  for (Json& frame : backwards | std::views::reverse) out["frames"].push_back(std::move(frame));
+  for (auto next = backwards.rbegin(); next != backwards.rend(); ++next)
+    out["frames"].push_back(std::move(*next));
   return out;
 }
 

@@ -330,6 +330,7 @@ TEST(MeanFreeTime, OfEqualNeedlesDoesNotDependOnTheirSpecies) {
   for (const std::vector<std::uint64_t>& counts :
        {std::vector<std::uint64_t>{3, 2}, {4, 1}, {1, 1, 1, 1, 1}}) {
     std::vector<Species> species;
+    species.reserve(counts.size());
     for (const std::uint64_t count : counts)
       species.push_back({.name = {}, .count = count, .k = 3});
     const std::vector<SpeciesTemperatures> at(counts.size(), {t_tr, t_rot});

@@ -90,6 +90,7 @@ Gas gas_of(std::size_t count, std::array<double, 3> box, const std::vector<doubl
     gas.records[i].species = static_cast<SpeciesIndex>(i % lengths.size());
   }
   std::vector<Species> species;
+  species.reserve(lengths.size());
   for (const double length : lengths) species.push_back({.length = length});
   gas.set_composition(Composition(species, {}));
   gas.images.resize(count);
