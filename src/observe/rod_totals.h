@@ -9,7 +9,7 @@ namespace needlework::observe {
 
 struct RodTotals {
   double packing_fraction = 0;
-  double virial = 0;  ///< Simulation::virial()
+  double virial = 0;                                           ///< Simulation::virial()
   double pressure = std::numeric_limits<double>::quiet_NaN();  ///< by Pressure
   const char* pressure_meaning = "";                           ///< Pressure::meaning()
 
