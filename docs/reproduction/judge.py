@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Judges the measurements in claims/claims-all.json again, by the claims of profiles/paper as they
+"""Judges the measurements in claims-all.json again, by the claims of profiles/paper as they
 are now, and prints each verdict that is another. No run is needed.
 
     PYTHONPATH=build/release/python /usr/bin/python3 docs/reproduction/judge.py
@@ -25,7 +25,7 @@ def judged(row, claims):
 
 
 if __name__ == "__main__":
-    path = HERE / "claims/claims-all.json"
+    path = HERE / "claims-all.json"
     results = json.loads(path.read_text())
     claims = read_claims(PAPER / "claims.toml")
     new = [judged(row, claims) for row in results["claims"]]

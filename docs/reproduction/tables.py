@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
-"""Writes the tables of claims/claims-all.json, which `needlework reproduce all` has written and
-judge.py judges again. A document keeps the table of a figure between <!-- table FIGURE --> and <!-- end -->;
-claims/README.md has those of all other figures. The table "paper" is the summary of its claims, and
-"verdicts" counts them.
+"""Writes what claims-all.json says, which `needlework reproduce all` has written and judge.py
+judges again: claims.csv beside the data of the figures has all of it, and documents have tables between
+<!-- table NAME --> and <!-- end -->, "paper", the summary of the paper's claims, and "verdicts", which
+counts them.
 
     tables.py           writes the tables
     tables.py --check   exit code 1 if they are others, or if a verdict does not follow from its numbers
 """
 
+import csv
+import io
 import json
 import math
 import re
@@ -16,19 +18,13 @@ from collections import Counter
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-FOLDER = HERE / "claims"
-CLAIMS = FOLDER / "claims-all.json"
-TABLES = FOLDER / "README.md"
+CLAIMS = HERE / "claims-all.json"
+TABLE_OF_ALL = HERE / "claims.csv"
 PAPER = ("2", "3", "4", "5a", "5b", "6", "7", "8", "fluctuations", "moment", "rotation",
          "relaxation")
 TABLE = re.compile(r"(<!-- table (\S+) -->\n).*?(<!-- end -->)", re.S)
-HEAD = """# Claims and measurements
-
-Written by [tables.py](../tables.py) from [claims-all.json](claims-all.json). *Stated* is a number with its
-precision, with the reason of both in parentheses; *measured* a mean over so many seeds with its standard
-error; *99 %* half the width of its confidence interval. [Reproduction](../../reproduction.md#verdicts) says
-what a verdict means; without a stated number there is none.
-"""
+COLUMNS = ("figure", "claim", "quantity", "of", "stated", "precision", "reason", "measured",
+           "standard error", "half width of the 99 % interval", "seeds", "verdict")
 
 # Student's t within which so many percent lie, by the number of seeds: from tables, apart from the
 # program.
@@ -81,31 +77,19 @@ def verdict(row, percent=99):
     return "differs" if high < least or low > most else "open"
 
 
-def shown(row):
-    """The verdict in words."""
-    if row["paper"] is None:
-        return "–"
-    return "undecided" if row["verdict"] == "open" else f"**{row['verdict']}**"
-
-
-def table(rows):
-    """Claims that several variants measure stay together."""
-    claims = list(dict.fromkeys(row["claim"] for row in rows))
-    lines = ["| claim | of | stated | measured | 99 % | seeds | verdict |",
-             "|---|---|---|---|---|---|---|"]
-    last = None
-    for row in sorted(rows, key=lambda row: claims.index(row["claim"])):
-        claim = f"{row['statement']} *{row['quantity']}*"
-        if row["reading"]:
-            claim += f" ({row['reading']})"
+def table_of_all(rows):
+    """A row for each measurement. Without a stated number there is no verdict."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    for row in rows:
         half = half_width(row)
-        lines.append(" | ".join(["| " + (claim if row["claim"] != last else ""),
-                                 row["variant"] or "", stated(row), measured(row),
-                                 f"{half:.2g}" if half else "–",
-                                 "–" if row["seeds"] is None else str(row["seeds"]),
-                                 f"{shown(row)} |"]))
-        last = row["claim"]
-    return "\n".join(lines) + "\n"
+        judged = row["verdict"].replace("open", "undecided") if row["paper"] is not None else None
+        values = (row["figure"], row["statement"], row["quantity"], row["variant"], row["paper"],
+                  row["precision"], row["reading"], row["measured"], row["error"],
+                  f"{half:.2g}" if half else None, row["seeds"], judged)
+        writer.writerow(["" if value is None else value for value in values])
+    return text.getvalue()
 
 
 def summary(rows):
@@ -149,23 +133,16 @@ def main():
     wrong = [row["id"] for row in rows if row["verdict"] != verdict(row)]
     if wrong:
         sys.exit(f"{CLAIMS}: the verdicts do not follow from the numbers of {', '.join(wrong)}")
-    figures = {}
-    for row in rows:
-        figures.setdefault(row["figure"], []).append(row)
-
-    written = {name: table(mine) for name, mine in figures.items()}
-    written |= {"paper": summary(rows), "verdicts": verdicts(rows)}
-    texts = {document: document.read_text() for document in sorted(HERE.parent.rglob("*.md"))
-             if document != TABLES}
+    written = {"paper": summary(rows), "verdicts": verdicts(rows)}
+    texts = {document: document.read_text() for document in sorted(HERE.parent.rglob("*.md"))}
     places = {match[2] for text in texts.values() for match in TABLE.finditer(text)}
     if unknown := places - written.keys():
-        sys.exit(f"{HERE.parent}: expected tables of figures with claims, not of "
+        sys.exit(f"{HERE.parent}: expected the tables paper and verdicts, not "
                  f"{', '.join(sorted(unknown))}")
     new = {document: TABLE.sub(lambda match: match[1] + written[match[2]] + match[3], text)
            for document, text in texts.items()}
-    new[TABLES] = "\n".join([HEAD, *(f"## {name}\n\n{written[name]}" for name in figures
-                                     if name not in places)])
-    texts[TABLES] = TABLES.read_text() if TABLES.exists() else ""
+    new[TABLE_OF_ALL] = table_of_all(rows)
+    texts[TABLE_OF_ALL] = TABLE_OF_ALL.read_text() if TABLE_OF_ALL.exists() else ""
     for document, text in new.items():
         if text == texts[document]:
             continue

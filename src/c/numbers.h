@@ -1,4 +1,4 @@
-// Numbers of results in the structures of C, which src/runs/declare_results.py writes in the order
+// Numbers of results in the structures of C, which tests/results/declare.py writes in the order
 // of their lists: eight bytes each.
 #pragma once
 

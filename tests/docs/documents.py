@@ -1,5 +1,5 @@
 """Links among the documents lead somewhere, files and tests that they name exist, tables are tables,
-the container is built as the front page says, which stays short."""
+the container is built as the front page says, which stays short, as do all pages together."""
 
 import re
 import unittest
@@ -145,6 +145,10 @@ class Documents(unittest.TestCase):
         command = re.search(r"^RUN (\S+)", (ROOT / "Containerfile").read_text(), re.M)[1]
         start = re.search(r"^## Start\n(.*?)^## ", (ROOT / "README.md").read_text(), re.M | re.S)[1]
         self.assertIn(f"\n    {command}\n", start)
+
+    def test_all_pages_together_are_short(self):
+        words = sum(len(path.read_text().split()) for path in (ROOT / "docs").rglob("*.md"))
+        self.assertLessEqual(words, 60000)
 
     def test_front_page_is_short(self):
         text = (ROOT / "README.md").read_text()

@@ -20,7 +20,7 @@ RESULTS = Path(__file__).resolve().parents[2] / "docs/reproduction"
 class CommittedResults(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        results = json.loads((RESULTS / "claims/claims-all.json").read_text())
+        results = json.loads((RESULTS / "claims-all.json").read_text())
         cls.size, cls.rows = results["size"], results["claims"]
         cls.measured = {row["id"]: row["measured"] for row in cls.rows}
 
@@ -39,7 +39,7 @@ class CommittedResults(unittest.TestCase):
                              f"{row['id']}: docs/reproduction/judge.py judges again")
 
     def test_have_a_line_for_each_claim(self):
-        lines = (RESULTS / "claims/claims-all.json").read_text().splitlines()
+        lines = (RESULTS / "claims-all.json").read_text().splitlines()
         self.assertEqual(len(lines), len(self.rows) + 2)
 
     def test_have_data_from_which_each_figure_is_drawn(self):
