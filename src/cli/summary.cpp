@@ -67,8 +67,11 @@ std::string energy_lines(const Report& report) {
   const Totals& first = report.course.initial;
   const Totals& last = report.course.last;
   std::string text;
-  const auto theory = report.theory_at(last);
   const bool cools = last.energy < 0.999 * first.energy;
+  // In the order of times, in which theory follows its curve once.
+  const Totals* before = cools ? decade_before(report.course) : nullptr;
+  const auto theory_before = before ? report.theory_at(*before) : std::nullopt;
+  const auto theory = report.theory_at(last);
   if (cools) {
     text += line("energy", "E/E(0) = {:.4g}", last.energy / first.energy);
     if (theory) {
@@ -76,8 +79,6 @@ std::string energy_lines(const Report& report) {
       text += fmt::format(", theory {:.4g}, measured/theory {:.3f}\n",
                           theory->energy() / first.energy, last.energy / theory->energy());
     }
-    const Totals* before = decade_before(report.course);
-    const auto theory_before = before ? report.theory_at(*before) : std::nullopt;
     if (theory && theory_before) {
       text += line("", "fell as t^{:.2f} over the last decade of time, theory t^{:.2f}",
                    slope(before->energy, last.energy, before->time, last.time),

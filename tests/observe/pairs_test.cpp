@@ -100,7 +100,7 @@ TEST(PairCorrelation, OfNeedlesBetweenWallsIsOne) {
   const std::vector<double> shares = IdealPairs(setting_of(scene)).shares(0, 0, values["borders"]);
   double square = 0;
   for (std::size_t n = 0; n < bins; ++n) {
-    const double error = 1 / std::sqrt(draws * 400 * 399 / 2 * shares[n]);
+    const double error = 1 / std::sqrt(0.5 * draws * 400 * 399 * shares[n]);
     EXPECT_NEAR(sums[n], 1, 4.5 * error) << n;
     square += std::pow((sums[n] - 1) / error, 2);
   }
@@ -153,7 +153,8 @@ TEST(StructureFactor, OfADensityWaveIsAPeak) {
   State state = resting(40, pairs_box);
   for (std::size_t i = 0; i < 40; ++i) {
     // Four planes across x, ten positions along y, one plane across z.
-    state.position[i] = {2.0 * double(i % 4), 0.9 * double(i / 4), 5};
+    const std::size_t plane = i % 4, row = i / 4;
+    state.position[i] = {2.0 * double(plane), 0.9 * double(row), 5};
   }
   Values values = Observed(scene_with("structure_factor", 40, pairs_box)).sample(state);
   for (std::size_t n = 1; n <= 16; ++n) {

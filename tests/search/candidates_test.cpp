@@ -121,8 +121,9 @@ TEST(ContactsInALongRun, AreProposedWhileTheGasCoolsAndHeats) {
       ASSERT_NO_FATAL_FAILURE(drive.check(i));
     }
     drive.look_ahead(1 / speeds.sigma);
-    for (int n = 0; n < 60 / thin; ++n) {
-      const double flight = 30.0 / (60 / thin);
+    const int flights = 60 / thin;
+    for (int n = 0; n < flights; ++n) {
+      const double flight = 30.0 / flights;
       lengths += flight;
       ASSERT_NO_FATAL_FAILURE(drive.advance(flight / speeds.sigma));
       ASSERT_NO_FATAL_FAILURE(drive.check_before_contact(any_needle(random, gas)));
