@@ -35,7 +35,7 @@ class CourseSearch {
 
   Relation at(double s) {
     ++counters_.evaluated;
-    const Stance a = pair_.first.at(s), b = pair_.second.at(s);
+    const BodyState a = pair_.first.at(s), b = pair_.second.at(s);
     Relation out;
     out.r = (a.r - b.r) - pair_.shift;
     out.u1 = a.u;

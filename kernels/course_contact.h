@@ -13,7 +13,7 @@
 namespace needlework::kernels {
 
 /// A needle at one time.
-struct Stance {
+struct BodyState {
   Vec3d r, v;  ///< centre and its velocity [L, L / time]
   Vec3d u, w;  ///< director and angular velocity [1, 1 / time]
 };
@@ -22,7 +22,7 @@ struct Stance {
 class Course {
  public:
   virtual ~Course() = default;
-  virtual Stance at(double s) const = 0;
+  virtual BodyState at(double s) const = 0;
 
   /// Until when it is known. [time]
   double lasts = 0;

@@ -64,7 +64,7 @@ class CourseTip {
  private:
   TipHeight at(double s) const {
     const int axis = given_.wall.axis;
-    const Stance there = course_.at(s);
+    const BodyState there = course_.at(s);
     const WallSurface surface = surface_at(
         given_.wall, given_.turns + DoubleDouble(given_.wall.frequency) * DoubleDouble(s));
     const double place = component(there.r, axis) + arm_ * component(there.u, axis);

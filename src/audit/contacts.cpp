@@ -22,7 +22,7 @@ constexpr double least_parting = 0x1p-43;
 /// An epsilon that is raised follows from the threshold to this.
 constexpr double raised_tolerance = 2e-5;
 
-Record record_of(const Stance& stance, const Instant& now) {
+Record record_of(const BodyState& stance, const Instant& now) {
   return {now, to<double>(stance.r), to<double>(stance.v), to<double>(stance.u),
           to<double>(cross(stance.u, stance.du))};
 }
@@ -38,7 +38,7 @@ Extended normal_noise(const Needle& first, const Needle& second, const Touch& to
 }
 
 // What gravity makes of it in this time.
-Stance fallen(Stance stance, const Vector<double>& gravity, Extended time) {
+BodyState fallen(BodyState stance, const Vector<double>& gravity, Extended time) {
   const Vector<Extended> gained = to<Extended>(gravity) * time;
   stance.r = stance.r + gained * (time / 2);
   stance.v = stance.v + gained;
@@ -71,7 +71,7 @@ Needle Audit::present(Index i, const Instant& now) const {
   Joint& joint = *joints_[i];
   const double s = elapsed<double>(joint.begin, now).middle;
   joint.motion.follow(s);
-  const Stance stance = fallen(joint.motion.at(joint.index(i), s), space_.gravity, s);
+  const BodyState stance = fallen(joint.motion.at(joint.index(i), s), space_.gravity, s);
   Needle out(record_of(stance, now), needles_[i].body);
   out.worn = noise_of(joint.motion, joint.index(i), s) * 0x1p50;
   return out;

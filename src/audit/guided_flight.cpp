@@ -51,8 +51,8 @@ void GuidedFlight::bound(double duration) {
   hurry_ = std::sqrt(acceleration_ / size() + turned_faster_);
 }
 
-Stance GuidedFlight::Course::at(double s) const {
-  Stance out;
+BodyState GuidedFlight::Course::at(double s) const {
+  BodyState out;
   if (joint) {
     out = joint->at(index, delay + s);
   } else {
@@ -77,7 +77,7 @@ JointMotion::Most GuidedFlight::Course::most(double duration) const {
 }
 
 Sample GuidedFlight::sample(double s) const {
-  const Stance a = courses_[0].at(s), b = courses_[1].at(s);
+  const BodyState a = courses_[0].at(s), b = courses_[1].at(s);
   const Vector<Extended> r = a.r - b.r - image_, x = cross(a.u, b.u);
   const Vector<Extended> dx = cross(a.du, b.u) + cross(a.u, b.du);
   Sample out;

@@ -38,7 +38,7 @@ class GuidedFlight final : public PairMotion {
     Vector<Extended> fallen, falls;  ///< what gravity has made of place and velocity until s = 0
 
     Course(const Guide& guide, const Vector<double>& gravity);
-    Stance at(double s) const;
+    BodyState at(double s) const;
     JointMotion::Most most(double duration) const;
   };
   void bound(double duration);

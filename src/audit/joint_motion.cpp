@@ -270,10 +270,10 @@ RelativeState JointMotion::state_at(double s) const {
           slope_of(step.u1, t), value_of(step.u2, t), slope_of(step.u2, t)};
 }
 
-Stance JointMotion::at(int needle, double s) const {
+BodyState JointMotion::at(int needle, double s) const {
   const RelativeState state = state_at(s);
   const Extended part = needle == 0 ? share_[0] : -share_[1];
-  Stance out;
+  BodyState out;
   out.r = centre_[needle] + drift_ * Extended(s) + (state.r - apart_) * part;
   out.v = drift_ + state.v * part;
   out.u = needle == 0 ? state.u1 : state.u2;

@@ -20,7 +20,7 @@
 namespace needlework::audit {
 
 /// Centre, director and their rates of change at one time.
-struct Stance {
+struct BodyState {
   Vector<Extended> r, v, u, du;
 };
 
@@ -38,7 +38,7 @@ class JointMotion {
   /// cannot be resolved.
   bool follow(double until);
   /// Needle 0 or 1 at a time until which the motion has been computed.
-  Stance at(int needle, double s) const;
+  BodyState at(int needle, double s) const;
   /// Both then, relative to each other.
   RelativeState state_at(double s) const;
   Touch touch_at(double s) const { return Touch(state_at(s), bodies_); }

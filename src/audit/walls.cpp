@@ -82,7 +82,7 @@ TipFlight::TipFlight(const Guide& guide, double duration, const Vector<double>& 
 TipFlight::Point TipFlight::tip_at(double s) const {
   const double fall = half_fall_ * s;
   if (joint_) {
-    const Stance stance = joint_->at(index_, s);
+    const BodyState stance = joint_->at(index_, s);
     return {centre_ + static_cast<double>(stance.r[axis_] + arm_ * stance.u[axis_]) + fall * s,
             static_cast<double>(stance.v[axis_] + arm_ * stance.du[axis_]) + 2 * fall};
   }

@@ -9,7 +9,7 @@
 #include "kernels/contact_function.h"
 #include "needlework/composition.h"
 #include "needlework/predict.h"
-#include "src/physics/species.h"
+#include "src/physics/body.h"
 
 namespace needlework::boltzmann {
 

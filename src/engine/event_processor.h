@@ -101,10 +101,18 @@ class EventProcessor {
   template <class Renew>
   Shift replace_record(Needle i, Renew&& renew);
   void horizon(Needle i);
+  using Outcome = std::conditional_t<M::has_sliding, Sliding::Outcome, PairOutcome>;
+  struct PairEvent {
+    kernels::ContactGeometry contact;
+    Outcome outcome;
+    double virial = 0;  ///< r12 . dp, where bodies have a distance [energy]
+  };
+  PairEvent pair_event(const Event& event);
+  Happening happening_of(const Event& event, const PairEvent& of) const;
   // A separate function, so that a test can inspect the machine code that an effect adds.
-  [[gnu::noinline]] void collide(const Event& event);
-  [[gnu::noinline]] void touch(const Event& event);
-  void cut_contacts_of(Needle i, std::optional<Id> but = {});
+  [[gnu::noinline]] void meet(const Event& event);
+  void count(const PairEvent& event, Needle a, Needle b);
+  void report_pair(Happening& happening, const Outcome& outcome, Needle a, Needle b);
   [[noreturn, gnu::noinline]] void refuse_parallel(const Event& event) const;
   [[gnu::noinline]] void happen(const Event& event);
   void consider_sources(Needle i, Event& best) const;
@@ -143,8 +151,7 @@ void EventProcessor<S, M>::process(const Event& event, bool stale) {
         ++tally_.counters.stale;
         return schedule(event.owner, place(event.owner));
       }
-      if constexpr (M::has_sliding) return touch(event);
-      return collide(event);
+      return meet(event);
     case EventKind::source:
       if constexpr (M::has_effects) happen(event);
       return;
@@ -157,7 +164,7 @@ template <Search S, Model M>
 void EventProcessor<S, M>::horizon(Needle i) {
   if (gas_.records[i].renewal <= now()) {
     ++tally_.counters.renewals;
-    replace_record(i, [&] { return model_.renew_in_flight(i, now()); });
+    replace_record(i, [&] { return model_.renew(i, now(), model_.present(i, now())); });
   } else {
     ++tally_.counters.rebuilds;
   }
@@ -180,101 +187,157 @@ bool EventProcessor<S, M>::by_contact_time(Needle a, Needle b) const {
   return rule.is_recent(a, now(), run_.contact_time) || rule.is_recent(b, now(), run_.contact_time);
 }
 
+// What an event makes of a pair, from the records of both, which it then replaces: nothing here
+// refers to them.
 template <Search S, Model M>
-void EventProcessor<S, M>::collide(const Event& event) {
+[[gnu::always_inline]] inline typename EventProcessor<S, M>::PairEvent
+EventProcessor<S, M>::pair_event(const Event& event) {
   const Needle a = event.lower(), b = event.higher();
-  count_at_instant(a, b);
-  const Record& first = gas_.records[a];
-  const Record& second = gas_.records[b];
+  const Record &first = gas_.records[a], &second = gas_.records[b];
   const auto pair = model_.pair(a, first, b, second, event.shift);
   const DoubleDouble elapsed = gas_.clock.exact_difference(now(), Gas::start_of(first, second));
-  const kernels::ContactGeometry contact = model_.contact().geometry(pair, elapsed);
-  const bool elastic = by_contact_time(a, b);
-  const Impact impact = model_.collide(first, second, now(), contact, event.side, elastic);
+  PairEvent out;
+  out.contact = model_.contact().geometry(pair, elapsed);
+  const kernels::ContactGeometry& contact = out.contact;
+  if constexpr (M::has_sliding) {
+    out.outcome = run_.sliding->outcome(
+        gas_, {pair, now(), contact, event.side, model_.restitution(first, second),
+               run_.windows.mean_free_time()});
+  } else {
+    const bool elastic = by_contact_time(a, b);
+    out.outcome = model_.collide(a, b, now(), contact, event.side, elastic);
+    out.outcome.contact_time_rule = elastic;
+  }
+  if constexpr (M::Law::has_distance) {
+    // The centres are as far apart along the normal as both bodies reach from them: never below 0.
+    // A contact without velocity has an impulse of -0.
+    const double apart = pair.distance - contact.arm_first * dot(contact.u_first, contact.normal) +
+                         contact.arm_second * dot(contact.u_second, contact.normal);
+    out.virial = std::max(0.0, dot(out.outcome.impulse, contact.normal) * apart);
+  }
+  return out;
+}
 
-  Happening happening;
-  Collision& report = happening.event;
+template <Search S, Model M>
+Happening EventProcessor<S, M>::happening_of(const Event& event, const PairEvent& of) const {
+  const PairOutcome& outcome = of.outcome;
+  Happening out;
+  if constexpr (M::has_sliding) {
+    if (outcome.bond == BondChange::begins) out.kind = Happening::contact_entered;
+    if (outcome.bond == BondChange::ends && !outcome.collides) out.kind = Happening::contact_ended;
+  }
+  Collision& report = out.event;
   set_time(report);
-  report.first = gas_.ids[a].value;
-  report.second = gas_.ids[b].value;
+  report.first = event.lower_id.value;
+  report.second = event.higher_id.value;
   report.shift = event.shift;
-  report.arm_first = contact.arm_first;
-  report.arm_second = contact.arm_second;
-  report.sin_angle = contact.sin_angle;
-  report.normal_velocity = impact.normal_velocity;
-  report.impulse = {impact.impulse.x, impact.impulse.y, impact.impulse.z};
-  report.energy_change = impact.energy_change;
-  report.contact_time_rule = elastic;
+  report.arm_first = of.contact.arm_first;
+  report.arm_second = of.contact.arm_second;
+  report.sin_angle = of.contact.sin_angle;
+  report.normal_velocity = outcome.normal_velocity;
+  report.impulse = {outcome.impulse.x, outcome.impulse.y, outcome.impulse.z};
+  report.energy_change = outcome.energy_change;
+  report.contact_time_rule = outcome.contact_time_rule;
+  return out;
+}
 
+template <Search S, Model M>
+void EventProcessor<S, M>::meet(const Event& event) {
+  const Needle a = event.lower(), b = event.higher();
+  count_at_instant(a, b);
+  const PairEvent of = pair_event(event);
+  const auto& outcome = of.outcome;
+  if constexpr (M::has_sliding) {
+    if (outcome.is_unresolvable()) {
+      --tally_.at_instant;
+      refuse_parallel(event);
+    }
+  }
+  Happening happening = happening_of(event, of);
   Shift wraps_a, wraps_b;
   try {
-    wraps_a = replace_record(
-        a, [&] { return model_.renew(a, now(), contact.u_first, impact.v_first, impact.w_first); });
-    wraps_b = replace_record(b, [&] {
-      return model_.renew(b, now(), contact.u_second, impact.v_second, impact.w_second);
-    });
+    wraps_a = replace_record(a, [&] { return model_.renew(a, now(), outcome.first); });
+    wraps_b = replace_record(b, [&] { return model_.renew(b, now(), outcome.second); });
   } catch (const InvalidStateError&) {
     predictor_.put_back();
     --tally_.at_instant;
     throw;
   }
-  if (M::has_effects && run_.contact_time_rule) {
+  const Shift shift = event.shift + wraps_b - wraps_a;
+  if constexpr (M::has_sliding) {
+    run_.sliding->settle(gas_, a, b, shift, now(), outcome, tally_.sliding);
+  } else {
+    const kernels::Touch touch{.touching = true, .collided = true, .side = outcome.side, .gap = 0};
+    gas_.add_touch(a, RecordedTouch::of(event.higher_id, gas_.records[b].serial, shift, touch));
+    gas_.add_touch(b, RecordedTouch::of(event.lower_id, gas_.records[a].serial, -shift, touch));
+  }
+  if (M::has_effects && run_.contact_time_rule && outcome.collides) {
     run_.contact_time_rule->collided(a, now());
     run_.contact_time_rule->collided(b, now());
   }
-  const Shift shift = event.shift + wraps_b - wraps_a;
-  const kernels::Touch touch{.touching = true, .collided = true, .side = event.side, .gap = 0};
-  gas_.add_touch(a, RecordedTouch::of(gas_.ids[b], gas_.records[b].serial, shift, touch));
-  gas_.add_touch(b, RecordedTouch::of(gas_.ids[a], gas_.records[a].serial, -shift, touch));
-
-  tally_.energy += run_.energy.in_quanta(impact.energy_change);
-  ++tally_.collisions;
-  tally_.tc_collisions += elastic;
-  if (M::has_effects && gas_.composition.is_mixture()) {
-    tally_.count(tally_.by_pair, gas_.composition.pair_index(first.species, second.species),
-                 gas_.composition.pairs());
+  count(of, a, b);
+  if (!M::has_sliding || (happening.kind == Happening::pair && !outcome.are_bonded())) {
+    tally_.hash.add(happening.event);
+  } else {
+    tally_.hash.add(happening.event,
+                    static_cast<std::uint8_t>(outcome.are_bonded() ? Happening::contact_entered
+                                                                   : Happening::contact_ended));
   }
-  if constexpr (M::has_width) {
-    // The centres are as far apart along the normal as both bodies reach from them: never below 0.
-    // A contact without velocity has an impulse of -0.
-    const double apart = pair.distance - contact.arm_first * dot(contact.u_first, contact.normal) +
-                         contact.arm_second * dot(contact.u_second, contact.normal);
-    if (tally_.virial.empty()) tally_.virial.resize(1);
-    tally_.virial.front().add(std::max(0.0, dot(impact.impulse, contact.normal) * apart));
-  }
-  tally_.hash.add(report);
   const Time placed_a = place(a), placed_b = place(b);
-  const double apart = model_.contact().time_apart(model_.pair(a, first, b, second, shift));
+  const double apart =
+      model_.contact().time_apart(model_.pair(a, gas_.records[a], b, gas_.records[b], shift));
   schedule(a, placed_a, {b, shift, apart});
   schedule(b, placed_b, {a, -shift, apart});
-  if (run_.listeners.any()) run_.listeners.report(gas_, happening, a, b, reports);
+  if (run_.listeners.any()) report_pair(happening, outcome, a, b);
+}
+
+template <Search S, Model M>
+[[gnu::always_inline]] inline void EventProcessor<S, M>::count(const PairEvent& event, Needle a,
+                                                               Needle b) {
+  tally_.energy += run_.energy.in_quanta(event.outcome.energy_change);
+  if (!event.outcome.collides) return;
+  ++tally_.collisions;
+  tally_.tc_collisions += event.outcome.contact_time_rule;
+  if (M::has_effects && gas_.composition.is_mixture()) {
+    tally_.count(tally_.by_pair,
+                 gas_.composition.pair_index(gas_.records[a].species, gas_.records[b].species),
+                 gas_.composition.pairs());
+  }
+  if constexpr (M::Law::has_distance) {
+    if (tally_.virial.empty()) tally_.virial.resize(1);
+    tally_.virial.front().add(event.virial);
+  }
+}
+
+template <Search S, Model M>
+void EventProcessor<S, M>::report_pair(Happening& happening, const Outcome& outcome, Needle a,
+                                       Needle b) {
+  if constexpr (M::has_sliding) {
+    // Needles that collide as their contact has been cut have ended it before.
+    if (outcome.collides && outcome.bond_before == SlidingPair::Bond::cut) {
+      Happening ended = happening;
+      ended.kind = Happening::contact_ended;
+      ended.event.impulse = {};
+      ended.event.energy_change = 0;
+      run_.listeners.report(gas_, ended, a, b, reports);
+    }
+    if (outcome.bond == BondChange::continues) return;
+  }
+  run_.listeners.report(gas_, happening, a, b, reports);
 }
 
 template <Search S, Model M>
 NeedleAt EventProcessor<S, M>::needle_at(Needle i) const {
-  const Record& record = gas_.records[i];
-  if constexpr (M::has_sliding) {
-    const kernels::Stance present = gas_.present(i, now());
-    return {.needle = i,
-            .id = gas_.ids[i],
-            .record = record,
-            .species = gas_.species_of(record),
-            .now = now(),
-            .centre = present.r,
-            .director = present.u,
-            .velocity = present.v,
-            .angular_velocity = present.w};
-  }
-  const auto motion = gas_.motion_from(record, now());
+  const kernels::BodyState present = model_.present(i, now());
   return {.needle = i,
           .id = gas_.ids[i],
-          .record = record,
-          .species = gas_.species_of(record),
+          .record = gas_.records[i],
+          .body = model_.body(i),
           .now = now(),
-          .centre = motion.centre(),
-          .director = motion.director(),
-          .velocity = motion.velocity(),
-          .angular_velocity = motion.angular_velocity()};
+          .centre = present.r,
+          .director = present.u,
+          .velocity = present.v,
+          .angular_velocity = present.w};
 }
 
 template <Search S, Model M>
@@ -304,24 +367,20 @@ void EventProcessor<S, M>::happen(const Event& event) {
   report.energy_change = outcome.energy_change;
   report.contact_time_rule = outcome.contact_time_rule;
   if (outcome.changes_motion) {
-    const SlidingTally before = M::has_sliding ? tally_.sliding : SlidingTally{};
-    if constexpr (M::has_sliding) cut_contacts_of(i);
+    std::optional<double> cut;
+    if constexpr (M::has_sliding) cut = Sliding::cut_by_event(gas_, i, now());
     try {
       replace_record(i, [&] {
-        if constexpr (M::has_sliding) {
-          return model_.renew_from(
-              i, now(), {at.centre, outcome.velocity, at.director, outcome.angular_velocity});
-        } else {
-          return model_.renew(i, now(), at.director, outcome.velocity, outcome.angular_velocity);
-        }
+        return model_.renew(i, now(),
+                            {at.centre, outcome.velocity, at.director, outcome.angular_velocity});
       });
     } catch (const InvalidStateError&) {
       predictor_.put_back();
       gas_.columns.put_back(i, columns_before_.data());
-      if constexpr (M::has_sliding) tally_.sliding = before;
       --tally_.at_instant;
       throw;
     }
+    if (cut) tally_.sliding.cut(*cut);
     tally_.hash.add(happening);
   }
   const Quanta quanta =
@@ -411,7 +470,7 @@ void EventProcessor<S, M>::consider(Needle i, Needle j, const Shift& shift, doub
   event.lower_id = gas_.ids[a];
   event.higher_id = gas_.ids[b];
   const kernels::Contact contact = predictor_.predict(a, b, event.shift, from, until);
-  if constexpr (M::has_width) {
+  if constexpr (M::Law::never_overlap) {
     if (contact.overlap) report_overlap(a, b, event.shift);
   }
   if (!contact.found) return;
@@ -457,6 +516,15 @@ void EventProcessor<S, M>::report_overlap(Needle a, Needle b, const Shift& shift
 }
 
 template <Search S, Model M>
+void EventProcessor<S, M>::refuse_parallel(const Event& event) const {
+  throw InvalidStateError(
+      fmt::format("needles {} and {} slide on each other at time {:.17g} and are so nearly "
+                  "parallel that their motion cannot be resolved",
+                  event.lower_id.value, event.higher_id.value, gas_.clock.since_start(event.time)),
+      {{event.lower_id.value, event.higher_id.value}});
+}
+
+template <Search S, Model M>
 void EventProcessor<S, M>::refuse(const Event& event) {
   if (event.kind != EventKind::source) report_collapse(event);
   set_now(event.time);
@@ -487,5 +555,3 @@ void EventProcessor<S, M>::report_collapse(const Event& event) const {
 }
 
 }  // namespace needlework
-
-#include "src/engine/touch_events.h"  // the events of pairs that may slide

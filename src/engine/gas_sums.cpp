@@ -53,7 +53,7 @@ template <class Sum>
 auto with_velocities(const Gas& gas, Time now, const Sum& sum) {
   if (gas.slides) {
     return sum([&](const Record& a) {
-      const kernels::Stance present = gas.present(needle_of(gas, a), now);
+      const kernels::BodyState present = gas.present(needle_of(gas, a), now);
       return Velocities{present.v, present.w};
     });
   }

@@ -134,12 +134,12 @@ void require_inside(const Scene& scene, const Gas& gas) {
     const Record& record = gas.records[i];
     const Vec3d &r = record.flight.r, &u = record.flight.u;
     const std::array<double, 3> centre = {r.x, r.y, r.z}, director = {u.x, u.y, u.z};
-    const Species& species = gas.species_of(record);
-    const double half = 0.5 * species.length / std::hypot(u.x, u.y, u.z);
+    const Body& body = gas.body(i);
+    const double half = body.half_length / std::hypot(u.x, u.y, u.z);
     for (const Scene::WallSide& side : walls) {
       Gap wall = gaps[side.axis];
       (side.is_high ? wall.has_low : wall.has_high) = false;
-      const double reach = half * std::abs(director[side.axis]) + 0.5 * species.diameter;
+      const double reach = half * std::abs(director[side.axis]) + body.radius;
       const double beyond = wall.beyond(centre[side.axis], reach, gas.box.edge(side.axis));
       if (beyond <= gas.touch_tolerance()) continue;
       throw InputError(fmt::format(
@@ -160,7 +160,7 @@ void require_room_for_rods(const Gas& gas) {
   for (Needle i{0}; i < gas.size(); ++i) {
     StopRequest::check_in_turn(i);
     const Record& record = gas.records[i];
-    if (!gas.species_of(record).turns() && !(record.flight.w == Vec3d{})) {
+    if (!gas.body(i).turns() && !(record.flight.w == Vec3d{})) {
       refuse_vector(record.flight.w, "angular velocity", gas.ids[i],
                     "0, as a sphere does not turn");
     }

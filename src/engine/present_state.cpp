@@ -39,7 +39,7 @@ void copy_state(const Gas& gas, Time at, kernels::Isa isa, const std::vector<Nee
       const kernels::Flight& flight = gas.records[i].flight;
       const double elapsed = columns[C::elapsed][n];
       const bool slides = gas.slides && gas.records[i].is_sliding();
-      const kernels::Stance sliding = slides ? gas.present(i, at) : kernels::Stance{};
+      const kernels::BodyState sliding = slides ? gas.present(i, at) : kernels::BodyState{};
       const auto [place, boxes] =
           box.wrap(to_array(slides      ? sliding.r
                             : gas.falls ? gas.motion(gas.records[i]).centre(elapsed)
@@ -66,15 +66,11 @@ FreeNeedle needle_at(const Gas& gas, Time at, Id id) {
   if (found == gas.ids.end()) {
     throw InputError(fmt::format("needle {}: expected the id of a needle", id.value));
   }
-  const Record& record = gas.records[static_cast<std::size_t>(found - gas.ids.begin())];
-  const auto motion = gas.motion_from(record, at);
-  const bool slides = gas.slides && record.is_sliding();
-  kernels::Stance there{motion.centre(), motion.velocity(), motion.unit_director(),
-                        motion.angular_velocity()};
-  if (slides) {
-    there = gas.present(id, record, at);
-    there.u = normalised(there.u);
-  }
+  const Needle i(static_cast<std::size_t>(found - gas.ids.begin()));
+  kernels::BodyState there = gas.present(i, at);
+  // A director that has not moved keeps its bits.
+  const Record& record = gas.records[i];
+  if (record.time != at || record.is_sliding()) there.u = normalised(there.u);
   const Box& box = gas.box_at(at);
   const auto [place, boxes] = box.wrap(to_array(there.r));
   FreeNeedle out;
@@ -82,8 +78,8 @@ FreeNeedle needle_at(const Gas& gas, Time at, Id id) {
   out.orientation = to_array(there.u);
   out.velocity = to_array(there.v - box.image(boxes).velocity);
   out.angular_velocity = to_array(there.w);
-  out.length = gas.species_of(record).length;
-  out.diameter = gas.species_of(record).diameter;
+  out.length = gas.body(i).length();
+  out.diameter = 2 * gas.body(i).radius;
   return out;
 }
 

@@ -21,16 +21,15 @@ constexpr double most_overlap_of_rods = 1e-13;
 
 double explained_overlap(const Gas& gas, Time at) {
   double smallest = gas.composition.widest();
-  for (const Species& each : gas.composition.species())
-    smallest = std::min(smallest, each.diameter);
   // Positions and directors are rounded when records are made, and again when they are moved on.
   const double rounding = 0x1p-51 * (gas.longest + gas.box.sum_of_edges());
   double fastest = 0;
   for (Needle i{0}; i < gas.size(); ++i) {
     const Record& record = gas.records[i];
+    smallest = std::min(smallest, 2 * gas.body(i).radius);
     const double fallen =
         std::sqrt(dot(gas.gravity, gas.gravity)) * gas.clock.difference(at, record.time);
-    const double turns = 0.5 * gas.composition[record.species].length * record.flight.omega;
+    const double turns = gas.body(i).half_length * record.flight.omega;
     fastest = std::max(fastest, std::sqrt(dot(record.flight.v, record.flight.v)) + fallen + turns);
   }
   return most_overlap_of_rods * smallest + rounding + 2 * fastest * gas.clock.resolution();

@@ -143,8 +143,8 @@ Run::Run(const Scene& scene, Gas initial) : Run(scene) {
   for (Needle i{0}; i < gas.size(); ++i) {
     StopRequest::check_in_turn(i);
     const kernels::Flight flight = gas.records[i].flight;
-    renew_record(gas, i, now,
-                 {flight.u, flight.v, flight.w, gas.species_of(gas.records[i]).extent()});
+    renew_record(gas, i, now, {gas.motion(gas.records[i]).centre(0), flight.v, flight.u, flight.w},
+                 gas.body(i).extent());
   }
   open_window();
   initial_energy = present_energy();
@@ -289,17 +289,11 @@ ReplacedRecords Run::replace_velocities(const std::function<Vec3d(Needle)>& velo
   for (Needle i{0}; i < gas.size(); ++i) {
     const Record& record = gas.records[i];
     auto& entry = replaced.add(i, record);
-    if (record.is_sliding()) {
-      sliding->let_go(i, record, now);
-      const kernels::Stance present = gas.present(i, now);
-      entry.wraps = renew_record_from(
-          gas, i, now, present.r,
-          {present.u, velocity(i), angular_velocity(i), gas.species_of(record).extent()});
-      continue;
-    }
-    const Vec3d director = gas.motion_from(record, now).director();
-    entry.wraps = renew_record(
-        gas, i, now, {director, velocity(i), angular_velocity(i), gas.species_of(record).extent()});
+    if (record.is_sliding()) sliding->let_go(i, record, now);
+    const kernels::BodyState present = gas.present(i, now);
+    entry.wraps =
+        renew_record(gas, i, now, {present.r, velocity(i), present.u, angular_velocity(i)},
+                     gas.body(i).extent());
   }
   open_window();
   return replaced;
@@ -341,14 +335,13 @@ ReplacedRecords Run::kick() {
   std::vector<Kicks::Change> changes(gas.size());
   kernels::in_parallel(gas.size(), team.threads(), [&](std::size_t begin, std::size_t end) {
     for (Needle i(begin); i < end; ++i) {
-      const Record& record = gas.records[i];
       changes[i] = kicks->change(gas.ids[i], number, gas.present(i, now).u);
-      if (!gas.species_of(record).turns()) changes[i].angular_velocity = {};
+      if (!gas.body(i).turns()) changes[i].angular_velocity = {};
     }
   });
   const auto [x, y, z] = exact_sums(gas.records, team.threads(), [&](const Record& record) {
-    const auto i = static_cast<std::size_t>(&record - gas.records.data());
-    const Vec3d momentum = changes[i].velocity * gas.species_of(record).mass;
+    const Needle i(static_cast<std::size_t>(&record - gas.records.data()));
+    const Vec3d momentum = changes[i].velocity * gas.body(i).mass;
     return std::array{momentum.x, momentum.y, momentum.z};
   });
   const Vec3d of_all = Vec3d{x, y, z} * (1 / total_mass(gas.composition));

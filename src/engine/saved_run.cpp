@@ -119,13 +119,14 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
   for (const std::int32_t boxes : gas.images[i])
     require(boxes >= -most_boxes && boxes <= most_boxes);
   require(is_time(gas.clock, record.time) && record.time.epoch >= 0);
-  record.renewal = renewal_time(gas, record, gas.species_of(record).extent());
+  record.renewal = renewal_time(gas, record, gas.body(i).extent());
   require(touches.size() <= most_touches);
   require(gas.box_at(record.time).wrap(to_array(f.r)).place == to_array(f.r));
   record.touch_count = 0;
   for (const RecordedTouch& touch : touches) {
     const bool may_slide = gas.slides && &touch == &touches.front();
-    require(std::abs(touch.side) <= (may_slide ? 2 : 1) && std::isfinite(touch.gap));
+    require(std::abs(touch.side) <= 1 && std::isfinite(touch.gap) &&
+            (may_slide || touch.kind != TouchKind::bond));
     gas.add_touch(i, touch);
   }
 }
@@ -140,7 +141,8 @@ void transfer_slides(Archive& archive, Gas& gas, const std::vector<Needle>& by_i
     const RecordedTouch& touch = mine.first_touch;
     const auto place = std::ranges::lower_bound(by_id, touch.partner, {}, id_of);
     require(place != by_id.end() && id_of(*place) == touch.partner);
-    const Record& other = gas.records[*place];
+    const Needle j = *place;
+    const Record& other = gas.records[j];
     const RecordedTouch& back = other.first_touch;
     const Shift shift{touch.shift[0], touch.shift[1], touch.shift[2]};
     const bool is_first = id_of(i) < touch.partner;
@@ -152,12 +154,12 @@ void transfer_slides(Archive& archive, Gas& gas, const std::vector<Needle>& by_i
       archive(slide);
       if (!archive.reads()) continue;
       require(slide.faster[is_first ? 0 : 1] == touch.gap &&
-              slide.step.span <= gas.motion(mine).lasts(gas.species_of(mine).extent()));
+              slide.step.span <= gas.motion(mine).lasts(gas.body(i).extent()));
       gas.slides->put(is_first ? id_of(i) : touch.partner,
                       is_first ? mine.serial : touch.partner_serial, slide);
     } else if (archive.reads() && is_first) {
       require(mine.time == other.time && touch.side == back.side);
-      const Slide slide = make_slide(gas, mine, other, shift, touch.side / 2);
+      const Slide slide = make_slide(gas, i, j, shift, touch.side);
       require(slide.faster[0] == touch.gap && slide.faster[1] == back.gap);
       gas.slides->put(id_of(i), mine.serial, slide);
     }

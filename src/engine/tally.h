@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "needlework/counters.h"
+#include "src/effects/sliding/sliding_tally.h"
 #include "src/engine/quanta.h"
 #include "src/physics/clock.h"
 #include "src/trajectory/exact_total.h"
@@ -36,30 +37,6 @@ struct ObjectTally {
   template <class Archive>
   friend void transfer(Archive& archive, ObjectTally& tally) {
     archive(tally.events, tally.energy, tally.impulse, tally.normal_impulse);
-  }
-};
-
-/// What has happened to contacts of needles that slide on each other.
-struct SlidingTally {
-  std::uint64_t entered = 0;
-  std::uint64_t by_force = 0, by_tip = 0, by_strike = 0;  ///< ended
-  std::uint64_t crowded = 0;  ///< collisions whose epsilon was raised, as a third needle was near
-  std::uint64_t steps = 0;    ///< of the motion in contact
-  ExactTotal time;            ///< in contact, of all pairs [time]
-
-  template <class Archive>
-  friend void transfer(Archive& archive, SlidingTally& tally) {
-    archive(tally.entered, tally.by_force, tally.by_tip, tally.by_strike, tally.crowded,
-            tally.steps, tally.time);
-  }
-  void take(SlidingTally& other) {
-    entered += other.entered;
-    by_force += other.by_force;
-    by_tip += other.by_tip;
-    by_strike += other.by_strike;
-    crowded += other.crowded;
-    steps += other.steps;
-    time.take(other.time);
   }
 };
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernels/first_contact.h"
-#include "src/physics/species.h"
+#include "src/physics/body.h"
 
 namespace needlework {
 
@@ -20,7 +20,8 @@ struct Meeting {
   const Vec3d& w_first;
   const Vec3d& v_second;
   const Vec3d& w_second;
-  Body body_first, body_second;
+  const Body& body_first;
+  const Body& body_second;
   const kernels::ContactGeometry& contact;
   int side;  ///< sign of r12 . (u1 x u2) before the contact; 1 for rods
 };

@@ -6,6 +6,7 @@
 #include "kernels/first_contact.h"
 #include "kernels/rod_contact.h"
 #include "needlework/accuracy.h"
+#include "src/physics/collision.h"
 
 namespace needlework {
 
@@ -13,9 +14,13 @@ namespace needlework {
 /// [L] is called the gap. Thin needles cross it from either side, so that a pair is on one side of
 /// each other or the other, 1 or -1; bodies that exclude a volume are always on side 1.
 ///
-/// `Pair` is what it needs to know of two bodies, kernels::Pair or more; `excludes_volume` is
-/// whether bodies never pass through each other, so that a lost contact leaves an overlap, and
-/// `slides` whether they may slide on each other (src/physics/sliding_contact.h).
+/// `Pair` is what it needs to know of two bodies, kernels::Pair or more. Of a law is known:
+///   `has_distance`: the axes of bodies in contact are apart by Pair::distance, so that collisions
+///     push along the line between them, which adds to the virial;
+///   `never_overlap`: bodies never pass through each other, so that a lost contact leaves an
+///     overlap, which first_contact() reports;
+///   `surface`: the rule of collisions for beta = -1, and whether there are others
+///   (`may_be_rough`); `slides`: bodies may slide on each other (src/physics/sliding_contact.h).
 ///
 /// All are pure functions of the pair. They do not depend on when they are called, on the search or
 /// on the thread. Exchanging the bodies and negating the shift changes no bit. None throws.
@@ -34,7 +39,10 @@ template <class C>
 concept ContactLaw = requires(const C& contact, const typename C::Pair& pair, double time,
                               const DoubleDouble& elapsed, kernels::EvaluationCounters& spent) {
   requires std::derived_from<typename C::Pair, kernels::Pair>;
-  { C::excludes_volume } -> std::convertible_to<bool>;
+  { C::has_distance } -> std::convertible_to<bool>;
+  { C::never_overlap } -> std::convertible_to<bool>;
+  { C::surface } -> std::convertible_to<Surface>;
+  { C::may_be_rough } -> std::convertible_to<bool>;
   { C::slides } -> std::convertible_to<bool>;
   { contact.first_contact(pair, time, time, spent) } -> std::same_as<kernels::Contact>;
   { contact.gap(pair, elapsed) } -> std::convertible_to<double>;
@@ -47,7 +55,9 @@ concept ContactLaw = requires(const C& contact, const typename C::Pair& pair, do
 class NeedleContact {
  public:
   using Pair = kernels::Pair;
-  static constexpr bool excludes_volume = false, slides = false;
+  static constexpr bool has_distance = false, never_overlap = false;
+  static constexpr Surface surface = Surface::smooth;
+  static constexpr bool may_be_rough = true, slides = false;
 
   explicit NeedleContact(const Accuracy& accuracy) : accuracy_(accuracy) {}
   const Accuracy& accuracy() const { return accuracy_; }
@@ -75,7 +85,9 @@ static_assert(ContactLaw<NeedleContact>);
 class RodContact {
  public:
   using Pair = kernels::RodPair;
-  static constexpr bool excludes_volume = true, slides = false;
+  static constexpr bool has_distance = true, never_overlap = true;
+  static constexpr Surface surface = Surface::wide;
+  static constexpr bool may_be_rough = false, slides = false;
 
   explicit RodContact(const Accuracy& accuracy) : accuracy_(accuracy) {}
   const Accuracy& accuracy() const { return accuracy_; }

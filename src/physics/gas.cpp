@@ -101,9 +101,19 @@ kernels::Pair make_pair(const Gas& gas, Needle a, const Record& record_a, Needle
 
 void Gas::set_composition(Composition its_composition) {
   composition = std::move(its_composition);
-  longest = composition.longest();
-  bodies.clear();
-  for (const Species& each : composition.species()) bodies.push_back(body_of(each));
+  look_up_bodies();
+}
+
+void Gas::look_up_bodies() {
+  longest = composition.longest() * (slides ? 1 + 2 * most_departure : 1);
+  bodies_.clear();
+  for (const Species& each : composition.species()) bodies_.push_back(body_of(each));
+}
+
+Body Gas::body_of(const Species& species) const {
+  Body body = needlework::body_of(species);
+  if (slides) body.departure = most_departure * body.length();
+  return body;
 }
 
 void Gas::add_touch(Needle i, const RecordedTouch& touch) {
@@ -128,36 +138,28 @@ Shift add_boxes(const Shift& image, const Boxes& boxes, Id id) {
 
 void Gas::let_slide() {
   slides = std::make_unique<Slides>();
+  look_up_bodies();
   margin = 0;
-  for (Body& body : bodies) {
-    body.radius = most_departure * 2 * body.half_length;
-    margin = std::max(margin, 2 * body.radius);
-  }
-  longest *= 1 + 2 * most_departure;
+  for (const Body& body : bodies_) margin = std::max(margin, 2 * body.departure);
 }
 
-kernels::Stance Gas::present(Id id, const Record& record, Time now) const {
+kernels::BodyState Gas::present(Id id, const Record& record, Time now) const {
   const Slide* slide = slides && record.is_sliding() ? slides->of(id, record) : nullptr;
   return NeedleCourse(*this, id, record, slide, clock.difference(now, record.time)).at(0);
 }
 
-Shift renew_record(Gas& gas, Needle i, Time now, const NewFlight& flight) {
-  return renew_record_from(gas, i, now, gas.motion_from(gas.records[i], now).centre(), flight);
-}
-
-Shift renew_record_from(Gas& gas, Needle i, Time now, const Vec3d& centre,
-                        const NewFlight& flight) {
+Shift renew_record(Gas& gas, Needle i, Time now, const kernels::BodyState& state, double extent) {
   Record& record = gas.records[i];
   const Box& box = gas.box_at(now);
-  const auto [place, boxes] = box.wrap(to_array(centre));
+  const auto [place, boxes] = box.wrap(to_array(state.r));
   gas.images[i] = add_boxes(gas.images[i], boxes, gas.ids[i]);
   record.flight.r = vector_of(place);
-  record.flight.u = normalised(flight.director);
-  record.flight.v = flight.velocity - box.image(boxes).velocity;
-  record.flight.w = project_out(flight.angular_velocity, record.flight.u);
+  record.flight.u = normalised(state.u);
+  record.flight.v = state.v - box.image(boxes).velocity;
+  record.flight.w = project_out(state.w, record.flight.u);
   set_rotation(record.flight);
   record.time = now;
-  record.renewal = renewal_time(gas, record, flight.length);
+  record.renewal = renewal_time(gas, record, extent);
   record.touch_count = 0;
   ++record.serial;
   return shift_of(boxes);

@@ -9,13 +9,13 @@
 #include "kernels/contact_function.h"
 #include "src/box/box.h"
 #include "src/memory/large_array.h"
+#include "src/physics/body.h"
 #include "src/physics/clock.h"
 #include "src/physics/columns.h"
 #include "src/physics/ids.h"
 #include "src/physics/motion.h"
 #include "src/physics/record.h"
 #include "src/physics/slides.h"
-#include "src/physics/species.h"
 
 namespace needlework {
 
@@ -27,14 +27,13 @@ struct Gas {
   LargeArray<Shift> images;  ///< total number of boxes by which each centre has been wrapped
   std::unique_ptr<FurtherTouches> further_touches = std::make_unique<FurtherTouches>();
   Clock clock;
-  Box box;                  ///< its edges, and which axes are periodic: those without walls
-  Vec3d gravity{};          ///< acceleration of all needles [L / time^2]
-  bool falls = false;       ///< gravity is not 0
-  Vec3d pull{};             ///< gravity along periodic axes, where it has no potential
-  Columns columns;          ///< what effects keep for each needle
-  Composition composition;  ///< indexed by Record::species
-  std::vector<Body> bodies = {body_of(Species{})};  ///< of the same species
-  double longest = 1;                               ///< largest extent of a species [L]
+  Box box;                         ///< its edges, and which axes are periodic: those without walls
+  Vec3d gravity{};                 ///< acceleration of all needles [L / time^2]
+  bool falls = false;              ///< gravity is not 0
+  Vec3d pull{};                    ///< gravity along periodic axes, where it has no potential
+  Columns columns;                 ///< what effects keep for each needle
+  Composition composition;         ///< indexed by Record::species
+  double longest = 1;              ///< largest extent of a body, with departures from flights [L]
   std::unique_ptr<Slides> slides;  ///< null where needles do not slide on each other
   /// How far apart two axes in contact may be by the flights of their records, the largest diameter
   /// of rods left out. [L]
@@ -49,7 +48,11 @@ struct Gas {
   void set_composition(Composition its_composition);
   /// Lets needles slide on each other. To be called after set_composition().
   void let_slide();
-  const Species& species_of(const Record& record) const { return composition[record.species]; }
+  /// Length, mass and inertia of needle i. That the needles of a species have the same is known
+  /// here alone.
+  const Body& body(Needle i) const { return bodies_[records[i].species]; }
+  /// What needles of a species are in this gas.
+  Body body_of(const Species& species) const;
   /// How a needle moves from its record on.
   FreeFlight motion(const Record& record) const {
     return FreeFlight(record.flight, falls ? &gravity : nullptr);
@@ -58,9 +61,10 @@ struct Gas {
   MotionFrom<FreeFlight> motion_from(const Record& record, Time now) const {
     return {motion(record), clock.difference(now, record.time)};
   }
-  /// Where needle i is, and how it moves, whether or not it slides.
-  kernels::Stance present(Needle i, Time now) const { return present(ids[i], records[i], now); }
-  kernels::Stance present(Id id, const Record& record, Time now) const;
+  /// Where needle i is at `now`, and how it moves, whether or not it slides. The centre is not
+  /// wrapped.
+  kernels::BodyState present(Needle i, Time now) const { return present(ids[i], records[i], now); }
+  kernels::BodyState present(Id id, const Record& record, Time now) const;
   /// The centre moves no faster until the record is replaced. [L / time]
   double fastest_of(const Record& record) const {
     const double flight = motion(record).fastest(0, clock.difference(record.renewal, record.time));
@@ -83,6 +87,11 @@ struct Gas {
 
   /// The later of the times of two records, from which the time of their pair is counted.
   static Time start_of(const Record& a, const Record& b) { return std::max(a.time, b.time); }
+
+ private:
+  void look_up_bodies();
+
+  std::vector<Body> bodies_ = {needlework::body_of(Species{})};  ///< of each species
 };
 
 /// The pair of two records. Needle a has the lower id; `shift` is added to b's centre. The half
@@ -102,23 +111,12 @@ inline constexpr std::int32_t most_boxes = 0x7fffffff - (1 << 11);
 /// InvalidStateError beyond `most_boxes`.
 Shift add_boxes(const Shift& image, const Boxes& boxes, Id id);
 
-/// The start of a new record. Its position follows from the motion of the old one.
-struct NewFlight {
-  Vec3d director;
-  Vec3d velocity;
-  Vec3d angular_velocity;
-  double length = 1;  ///< of the needle, from end to end [L]
-};
-
-/// Replaces the record of needle i at `now`: the centre moves to where its motion has led and
+/// Replaces the record of needle i, `extent` from end to end [L], by a state at `now`: the centre
 /// is wrapped into the box, the director is normalised, w is made normal to it, and touches are
 /// forgotten. Returns the number of boxes by which the centre was wrapped. Throws
 /// InvalidStateError, and changes nothing, if that makes too many; see add_boxes().
-Shift renew_record(Gas& gas, Needle i, Time now, const NewFlight& flight);
-/// The same for a needle that is elsewhere than its flight has led, as it may have slid: `centre`
-/// is where, not wrapped. [L]
-Shift renew_record_from(Gas& gas, Needle i, Time now, const Vec3d& centre, const NewFlight& flight);
+Shift renew_record(Gas& gas, Needle i, Time now, const kernels::BodyState& state, double extent);
 /// Two needles as bodies that slide on each other.
-kernels::SlidingBodies sliding_bodies(const Gas& gas, const Record& first, const Record& second);
+kernels::SlidingBodies sliding_bodies(const Gas& gas, Needle first, Needle second);
 
 }  // namespace needlework

@@ -9,6 +9,7 @@
 #include "src/physics/contact.h"
 #include "src/physics/effects.h"
 #include "src/physics/gas.h"
+#include "src/physics/pair_outcome.h"
 
 namespace needlework {
 
@@ -19,39 +20,38 @@ namespace needlework {
 /// A model promises the following.
 ///   `motion` is how a needle moves from its record on.
 ///   `has_effects` is false for a model without any effect, and `effects()` tells which there are;
-///   `has_width` is true for rods of finite width, `has_sliding` where needles may slide on each
-///   other.
+///   `has_sliding` is true where needles may slide on each other.
+///   `body` is what a needle is, and `half_length` and `reach` parts of it that searches ask for.
 ///   `pair` is the relative motion of two needles, a pure function of the two records and the
 ///     shift, and `contact` is when and how such a pair touches (contact.h).
-///   `collide` returns the velocities after a contact, now, of needles that approach from `side`;
-///     `elastic` selects the rule for collisions within the contact time. It never adds energy.
-///   `renew` replaces the record of one needle by its state at `now` with a new director, velocity
-///     and angular velocity; `renew_in_flight` by the state to which its present flight has led.
-///     Both add to the needle's entry in Gas::images the number of boxes by which its centre was
-///     wrapped, return that number, and change nothing else.
-/// `renew` and `renew_in_flight` throw InvalidStateError, and change nothing, if a needle crosses
-/// more boxes than are counted; other members throw nothing. Several threads may use one model for
-/// different needles.
+///   `collide` is the outcome of a contact, now, of needles that approach from `side`; `elastic`
+///     selects the rule for collisions within the contact time. It never adds energy.
+///   `present` is the state to which a needle's motion has led at `now`, and `renew` replaces its
+///     record by such a state with other velocities. It adds to the needle's entry in Gas::images
+///     the number of boxes by which its centre was wrapped, returns that number, and changes
+///     nothing else.
+/// `renew` throws InvalidStateError, and changes nothing, if a needle crosses more boxes than are
+/// counted; other members throw nothing. Several threads may use one model for different needles.
 template <class M>
 concept Model = requires(const M& model, Needle i, const Record& record, const Shift& shift,
-                         Time now, const kernels::ContactGeometry& geometry, const Vec3d& vector) {
+                         Time now, const kernels::ContactGeometry& geometry,
+                         const kernels::BodyState& state) {
   { M::has_effects } -> std::convertible_to<bool>;
-  { M::has_width } -> std::convertible_to<bool>;
   { M::has_sliding } -> std::convertible_to<bool>;
+  requires ContactLaw<typename M::Law>;
   { model.effects() } -> std::convertible_to<Effects>;
   { model.gas() } -> std::same_as<Gas&>;
   { model.restitution(record, record) } -> std::convertible_to<const Restitution&>;
   { model.accuracy() } -> std::convertible_to<const Accuracy&>;
   { model.motion(record) } -> NeedleMotion;
+  { model.body(i) } -> std::same_as<const Body&>;
   { model.half_length(i) } -> std::same_as<double>;
   { model.reach(i) } -> std::same_as<double>;
-  requires ContactLaw<std::remove_cvref_t<decltype(model.contact())>>;
-  {
-    model.pair(i, record, i, record, shift)
-    } -> std::same_as<typename std::remove_cvref_t<decltype(model.contact())>::Pair>;
-  { model.collide(record, record, now, geometry, int{}, bool{}) } -> std::same_as<Impact>;
-  { model.renew(i, now, vector, vector, vector) } -> std::same_as<Shift>;
-  { model.renew_in_flight(i, now) } -> std::same_as<Shift>;
+  { model.contact() } -> std::same_as<const typename M::Law&>;
+  { model.pair(i, record, i, record, shift) } -> std::same_as<typename M::Law::Pair>;
+  { model.collide(i, i, now, geometry, int{}, bool{}) } -> std::same_as<PairOutcome>;
+  { model.present(i, now) } -> std::same_as<kernels::BodyState>;
+  { model.renew(i, now, state) } -> std::same_as<Shift>;
 };
 
 }  // namespace needlework

@@ -10,20 +10,21 @@ namespace needlework {
 /// Infinitely thin needles with normal and tangential restitution or, by another law of contact,
 /// smooth rods of finite width. Without effects they are smooth needles, lengths and masses are 1,
 /// and nothing is looked up by species. With effects, each is asked for when the model runs.
-template <bool with_effects, ContactLaw Law = NeedleContact>
+template <bool with_effects, ContactLaw TheLaw = NeedleContact>
 class NeedleModel {
  public:
+  using Law = TheLaw;
   static constexpr bool has_effects = with_effects;
-  static constexpr bool has_width = Law::excludes_volume;
   static constexpr bool has_sliding = Law::slides;
-  static_assert(has_effects || !(has_width || has_sliding), "these are looked up by species");
+  static_assert(has_effects || !(Law::has_distance || has_sliding), "bodies are looked up");
 
   /// `gas` must outlive the model. Without effects, `effects` must have none.
   NeedleModel(Gas& gas, const Effects& effects, const Accuracy& accuracy)
       : gas_(gas),
         effects_(effects),
         contact_(accuracy),
-        only_(gas.composition.only().value_or(0)) {}
+        only_(gas.composition.only().value_or(0)),
+        unit_{.inverse_inertia = 2 * gas.composition[only_].k} {}
 
   Effects effects() const {
     if constexpr (has_effects) return effects_;
@@ -40,76 +41,78 @@ class NeedleModel {
     if constexpr (has_effects) return gas_.motion(record);
     return FreeFlight(record.flight);
   }
+  const Body& body(Needle i) const {
+    if constexpr (has_effects) return gas_.body(i);
+    return unit_;
+  }
   /// Half the length of the axis of needle i. [L]
   double half_length(Needle i) const {
-    if constexpr (has_effects) return gas_.bodies[gas_.records[i].species].half_length;
+    if constexpr (has_effects) return gas_.body(i).half_length;
     return 0.5;
   }
   /// How far it reaches from its centre. Centres of two needles that are farther apart than both
   /// reach cannot be in contact. [L]
   double reach(Needle i) const {
-    if constexpr (has_width || has_sliding) return gas_.bodies[gas_.records[i].species].reach();
+    if constexpr (Law::has_distance || has_sliding) return gas_.body(i).reach();
     return half_length(i);
   }
   typename Law::Pair pair(Needle a, const Record& record_a, Needle b, const Record& record_b,
                           const Shift& shift) const {
     typename Law::Pair out{make_pair(gas_, a, record_a, b, record_b, shift)};
     if constexpr (has_effects) {
-      out.half_first = body(record_a).half_length;
-      out.half_second = body(record_b).half_length;
+      out.half_first = body(a).half_length;
+      out.half_second = body(b).half_length;
     }
-    if constexpr (has_width) out.distance = body(record_a).radius + body(record_b).radius;
+    if constexpr (Law::has_distance) out.distance = body(a).radius + body(b).radius;
     if constexpr (has_sliding) out.look_up(gas_, {a, record_a}, {b, record_b}, shift);
     return out;
   }
   const Law& contact() const { return contact_; }
-  Impact collide(const Record& a, const Record& b, Time now,
-                 const kernels::ContactGeometry& contact, int side, bool elastic) const {
+  PairOutcome collide(Needle i, Needle j, Time now, const kernels::ContactGeometry& contact,
+                      int side, bool elastic) const {
+    const Record &a = gas_.records[i], &b = gas_.records[j];
     const kernels::Flight &first = a.flight, &second = b.flight;
+    const auto outcome = [&](const Impact& impact) {
+      return PairOutcome::of(impact, contact, gas_.motion_from(a, now).centre(),
+                             gas_.motion_from(b, now).centre(), side);
+    };
     if constexpr (has_effects) {
       const Vec3d v_first = velocity(a, now), v_second = velocity(b, now);
-      const Meeting both{v_first, first.w, v_second, second.w, body(a), body(b), contact, side};
-      constexpr Surface smooth = has_width ? Surface::wide : Surface::smooth;
-      if (elastic) return needlework::collide<smooth>(both, Restitution{});
+      const Meeting both{v_first, first.w, v_second, second.w, body(i), body(j), contact, side};
+      if (elastic) return outcome(needlework::collide<Law::surface>(both, Restitution{}));
       const Restitution& rule = restitution(a, b);
-      if (!has_width && rule.is_rough()) return needlework::collide<Surface::rough>(both, rule);
-      return needlework::collide<smooth>(both, rule);
+      if (Law::may_be_rough && rule.is_rough())
+        return outcome(needlework::collide<Surface::rough>(both, rule));
+      return outcome(needlework::collide<Law::surface>(both, rule));
     } else {
-      const Meeting both{first.v, first.w, second.v, second.w, body(a), body(b), contact, side};
-      return needlework::collide<Surface::smooth>(both, restitution(a, b));
+      const Meeting both{first.v, first.w, second.v, second.w, body(i), body(j), contact, side};
+      return outcome(needlework::collide<Law::surface>(both, restitution(a, b)));
     }
   }
-
-  Shift renew(Needle i, Time now, const Vec3d& director, const Vec3d& velocity,
-              const Vec3d& angular_velocity) const {
-    return renew_record(gas_, i, now, {director, velocity, angular_velocity, extent(i)});
+  kernels::BodyState present(Needle i, Time now) const {
+    if constexpr (has_sliding) return gas_.present(i, now);
+    const auto motion = gas_.motion_from(gas_.records[i], now);
+    return {motion.centre(), motion.velocity(), motion.director(), motion.angular_velocity()};
   }
-  Shift renew_in_flight(Needle i, Time now) const {
-    const Record& record = gas_.records[i];
-    const auto present = gas_.motion_from(record, now);
-    return renew(i, now, present.director(), present.velocity(), present.angular_velocity());
-  }
-  /// The same as renew(), of a needle that may slide at present.
-  Shift renew_from(Needle i, Time now, const kernels::Stance& present) const {
-    return renew_record_from(gas_, i, now, present.r, {present.u, present.v, present.w, extent(i)});
+  Shift renew(Needle i, Time now, const kernels::BodyState& state) const {
+    return renew_record(gas_, i, now, state, extent(i));
   }
 
  private:
   /// From end to end. [L]
-  double extent(Needle i) const { return 2 * (has_sliding ? half_length(i) : reach(i)); }
+  double extent(Needle i) const {
+    if constexpr (has_effects) return body(i).extent();
+    return 1;
+  }
   Vec3d velocity(const Record& record, Time now) const {
     return gas_.falls ? gas_.motion_from(record, now).velocity() : record.flight.v;
-  }
-  Body body(const Record& record) const {
-    if constexpr (has_effects) return gas_.bodies[record.species];
-    return {
-        .half_length = 0.5, .inverse_mass = 1, .inverse_inertia = 2 * gas_.composition[only_].k};
   }
 
   Gas& gas_;
   Effects effects_;
   Law contact_;
   std::size_t only_;  ///< without effects, the species of all
+  Body unit_;         ///< and its body
 };
 
 using RodModel = NeedleModel<true, RodContact>;

@@ -8,11 +8,18 @@
 
 #include "kernels/contact_function.h"
 #include "src/box/box.h"
+#include "src/physics/body.h"
 #include "src/physics/clock.h"
 #include "src/physics/ids.h"
-#include "src/physics/species.h"
 
 namespace needlework {
+
+/// What two needles that touch have done.
+enum class TouchKind : std::uint8_t {
+  near,       ///< nothing: rounding cannot tell their contact function from 0
+  collision,  ///< collided
+  bond,       ///< come into contact, in which they slide on each other (slides.h)
+};
 
 /// A needle that this one touches to within rounding, and the side on which it is. The entry is
 /// valid for one record of the partner only; it no longer applies once that record has been
@@ -21,10 +28,11 @@ struct RecordedTouch {
   Id partner;
   std::uint32_t partner_serial = 0;
   std::array<std::int16_t, 3> shift{};  ///< boxes added to the partner's recorded centre
-  std::int8_t side = 0;   ///< sign of the contact function just after the touch; twice the sign
-                          ///< before it, of a partner on which the needle slides (slides.h)
-  bool collided = false;  ///< the touch was a collision
-  double gap = 0;         ///< value of the contact function [L]
+  std::int8_t side = 0;  ///< sign of the contact function just after the touch; just before it, of
+                         ///< a bond
+  TouchKind kind = TouchKind::near;
+  double gap = 0;  ///< value of the contact function [L]; of a bond, by how much the needle may
+                   ///< become faster than its flight [L / time]
 
   static RecordedTouch of(Id partner, std::uint32_t serial, const Shift& shift,
                           const kernels::Touch& touch) {
@@ -34,15 +42,21 @@ struct RecordedTouch {
             {static_cast<std::int16_t>(shift[0]), static_cast<std::int16_t>(shift[1]),
              static_cast<std::int16_t>(shift[2])},
             static_cast<std::int8_t>(touch.side),
-            touch.collided,
+            touch.collided ? TouchKind::collision : TouchKind::near,
             touch.gap};
+  }
+  static RecordedTouch bond(Id partner, std::uint32_t serial, const Shift& shift, int side,
+                            double faster) {
+    RecordedTouch out = of(partner, serial, shift, {.touching = true, .side = side, .gap = faster});
+    out.kind = TouchKind::bond;
+    return out;
   }
   bool is_with(Id other, std::uint32_t other_serial, const Shift& other_shift) const {
     return partner == other && partner_serial == other_serial && shift[0] == other_shift[0] &&
            shift[1] == other_shift[1] && shift[2] == other_shift[2];
   }
   kernels::Touch touch() const {
-    return {.touching = true, .collided = collided, .side = side, .gap = gap};
+    return {.touching = true, .collided = kind != TouchKind::near, .side = side, .gap = gap};
   }
 };
 
@@ -61,9 +75,7 @@ struct alignas(64) Record {
   RecordedTouch first_touch;  ///< the touch with the partner of the last collision, if there is one
 
   /// Whether it slides on the partner of its first touch, as it was when the record was made.
-  bool is_sliding() const {
-    return touch_count > 0 && (first_touch.side == 2 || first_touch.side == -2);
-  }
+  bool is_sliding() const { return touch_count > 0 && first_touch.kind == TouchKind::bond; }
 };
 
 static_assert(sizeof(Record) == 192);

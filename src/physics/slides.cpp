@@ -17,11 +17,11 @@ double length_of(const Vec3d& a) { return std::sqrt(dot(a, a)); }
 
 }  // namespace
 
-kernels::Stance Slide::at(int needle, const kernels::Flight& record, const Vec3d& gravity,
-                          double elapsed) const {
+kernels::BodyState Slide::at(int needle, const kernels::Flight& record, const Vec3d& gravity,
+                             double elapsed) const {
   const kernels::SlidingState state = step.at(elapsed);
   const double part = needle == 0 ? share[0] : -share[1];
-  kernels::Stance out;
+  kernels::BodyState out;
   out.r = (record.r + drift * elapsed) + ((state.r - apart) * part);
   out.v = drift + state.v * part;
   out.r += gravity * (0.5 * elapsed * elapsed);
@@ -31,17 +31,17 @@ kernels::Stance Slide::at(int needle, const kernels::Flight& record, const Vec3d
   return out;
 }
 
-kernels::SlidingBodies sliding_bodies(const Gas& gas, const Record& first, const Record& second) {
-  const auto body = [&](const Record& record) {
-    const Body& of = gas.bodies[record.species];
+kernels::SlidingBodies sliding_bodies(const Gas& gas, Needle first, Needle second) {
+  const auto body = [&](Needle i) {
+    const Body& of = gas.body(i);
     return kernels::SlidingBody{of.half_length, 1 / of.inverse_mass, 1 / of.inverse_inertia};
   };
   return {body(first), body(second)};
 }
 
-Slide make_slide(const Gas& gas, const Record& first, const Record& second, const Shift& shift,
-                 int side) {
-  const kernels::SlidingBodies bodies = sliding_bodies(gas, first, second);
+Slide make_slide(const Gas& gas, Needle i, Needle j, const Shift& shift, int side) {
+  const Record &first = gas.records[i], &second = gas.records[j];
+  const kernels::SlidingBodies bodies = sliding_bodies(gas, i, j);
   const kernels::Flight &a = first.flight, &b = second.flight;
   const Image<double> image = gas.box_at(first.time).image(shift);
   Slide out;
@@ -54,10 +54,10 @@ Slide make_slide(const Gas& gas, const Record& first, const Record& second, cons
   const kernels::SlidingState begin =
       kernels::in_contact(bodies, {out.apart, (a.v - b.v) - image.velocity, a.u, b.u, a.w, b.w});
   // Not to the time at which the records would be renewed.
-  const auto lasts = [&](const Record& record) {
-    return 0.5 * gas.motion(record).lasts(2 * gas.bodies[record.species].half_length);
+  const auto lasts = [&](Needle needle) {
+    return 0.5 * gas.motion(gas.records[needle]).lasts(gas.body(needle).length());
   };
-  double limit = std::min(lasts(first), lasts(second));
+  double limit = std::min(lasts(i), lasts(j));
   for (;;) {
     out.step = kernels::sliding_step(bodies, begin, side, limit);
     const kernels::SlidingStep::Most& most = out.most = out.step.most();
@@ -116,7 +116,7 @@ NeedleCourse::NeedleCourse(const Gas& gas, Id id, const Record& record, const Sl
   turning_faster = index_ == 0 ? most.turned_faster_first : most.turned_faster_second;
 }
 
-kernels::Stance NeedleCourse::at(double s) const {
+kernels::BodyState NeedleCourse::at(double s) const {
   const double elapsed = delay_ + s;
   if (slide_) return slide_->at(index_, record_.flight, gas_.gravity, elapsed);
   const FreeFlight motion = gas_.motion(record_);

@@ -2,10 +2,9 @@
 // records refer to.
 //
 // A record of a needle in contact begins with a step (kernels/sliding_motion.h). Its first touch is
-// with the partner and says so by its side, 2 or -2. Its flight is what the needle would do if
-// nothing pressed; until the end of the step the needle departs from that by no more than
-// Gas::bodies says (Body::radius), which is all that searches and threads have to know. A step is
-// made from both records alone.
+// the bond with the partner. Its flight is what the needle would do if nothing pressed; until the
+// end of the step the needle departs from that by no more than Body::departure, which is all that
+// searches and threads have to know. A step is made from both records alone.
 #pragma once
 
 #include <cstdint>
@@ -33,17 +32,17 @@ struct Slide {
   double faster[2]{};  ///< |v| of each needle grows by no more than this [L / time]
 
   /// Needle 0 or 1, `elapsed` after its record, which is this.
-  kernels::Stance at(int needle, const kernels::Flight& record, const Vec3d& gravity,
-                     double elapsed) const;
+  kernels::BodyState at(int needle, const kernels::Flight& record, const Vec3d& gravity,
+                        double elapsed) const;
 };
 
 /// Share of a needle's length by which any point of it may depart from the flight of its record.
 inline constexpr double most_departure = 0x1p-5;
 
-/// The step that begins with these records, which were made at one time; `shift` is added to the
-/// second needle's centre. Its end is the end of the contact, or before.
-Slide make_slide(const Gas& gas, const Record& first, const Record& second, const Shift& shift,
-                 int side);
+/// The step that begins with the records of two needles, which were made at one time. The first has
+/// the lower id, and `shift` is added to the second one's centre. Its end is the end of the
+/// contact, or before.
+Slide make_slide(const Gas& gas, Needle first, Needle second, const Shift& shift, int side);
 
 /// The steps of all records, by id and serial number of the needle with the lower id, so that they
 /// also apply to copies of a record and to records that are put back. Any number of threads may use
@@ -89,7 +88,7 @@ class NeedleCourse final : public kernels::Course {
  public:
   /// `slide` is null for a needle in free flight. From `delay` after its record on.
   NeedleCourse(const Gas& gas, Id id, const Record& record, const Slide* slide, double delay);
-  kernels::Stance at(double s) const override;
+  kernels::BodyState at(double s) const override;
 
  private:
   const Gas& gas_;

@@ -39,7 +39,9 @@ struct SlidingPair : kernels::Pair {
 class SlidingContact {
  public:
   using Pair = SlidingPair;
-  static constexpr bool excludes_volume = false, slides = true;
+  static constexpr bool has_distance = false, never_overlap = false;
+  static constexpr Surface surface = Surface::smooth;
+  static constexpr bool may_be_rough = false, slides = true;
 
   explicit SlidingContact(const Accuracy& accuracy) : free_(accuracy) {}
   const Accuracy& accuracy() const { return free_.accuracy(); }

@@ -102,15 +102,14 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
       per_length(1 / needlework::unit_of_length(all)),
       places(all.size()),
       motions(all.size()) {
-  SizeClasses sizes = size_classes(gas, setup, kind);
-  class_of_species = std::move(sizes.of_species);
+  sizes = size_classes(gas, setup, kind);
   std::vector<CellGrid> wished;
-  for (const SizeClass& each : sizes.all) wished.push_back(grid_for(gas, setup, each));
+  for (const SizeClass& each : sizes) wished.push_back(grid_for(gas, setup, each));
   const bool one = wished.size() == 1;
   grid = one ? wished.front() : coarsest(wished, gas.box.edges());
   for (std::size_t c = 0; c < wished.size(); ++c) {
     const CellGrid its_grid = one ? grid : division_near(gas, grid, wished[c]);
-    classes.push_back(std::make_unique<ClassCells>(gas, sizes.all[c], its_grid, per_length));
+    classes.push_back(std::make_unique<ClassCells>(gas, sizes[c], its_grid, per_length));
     const ClassCells& made = *classes.back();
     // What words round is far less than what Phase adds to the length of a needle, unless cells are
     // very much longer than that.
@@ -118,19 +117,19 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
     radius = std::max(radius, made.radius);
     drift = std::max(drift, std::max(made.overlap, made.radius) + rounding);
   }
-  if (sizes.all.front().in_balls && reaches_few_cells(gas, *classes.front())) {
+  if (sizes.front().in_balls && reaches_few_cells(gas, *classes.front())) {
     balls.resize(gas.size());
     leave_balls();
   }
-  const auto radius_of = [&](const Record& record) { return gas.bodies[record.species].radius; };
-  const auto is_other = [&](const Record& record) {
-    return radius_of(record) != radius_of(gas.records.front());
-  };
-  if (std::ranges::any_of(gas.records, is_other)) {
+  bool have_one_width = true;
+  for (Needle i{0}; i < gas.size(); ++i) {
+    have_one_width = have_one_width && gas.body(i).width() == gas.body(Needle(0)).width();
+  }
+  if (!have_one_width) {
     half_widths.resize(gas.size());
-    std::ranges::transform(gas.records, half_widths.begin(), [&](const Record& record) {
-      return static_cast<float>(radius_of(record) * per_length);
-    });
+    for (Needle i{0}; i < gas.size(); ++i) {
+      half_widths[i] = static_cast<float>(gas.body(i).width() * per_length);
+    }
   }
 }
 

@@ -106,7 +106,8 @@ struct BoundingVolumes {
   double since_base(Time t) const { return gas.clock.difference(t, base) * per_time; }
 
   ClassCells& class_of(Needle i) const {
-    return *classes[classes.size() == 1 ? 0 : class_of_species[gas.records[i].species]];
+    if (classes.size() == 1) return *classes.front();
+    return *classes[class_of_extent(sizes, 2 * gas.body(i).reach())];
   }
   /// The cell of the common grid in which needle i has been placed, in the frame of its record.
   Cell common_cell_of(Needle i) const {
@@ -117,7 +118,7 @@ struct BoundingVolumes {
   const bool falls, walled;                          ///< whether there is gravity, are walls
   double per_length;                                 ///< 1 / unit of length
   std::vector<std::unique_ptr<ClassCells>> classes;  ///< at least one
-  std::vector<std::uint8_t> class_of_species;        ///< index in `classes`
+  std::vector<SizeClass> sizes;                      ///< of the same
   CellGrid grid;                                     ///< the common grid: of one class, its own
   double radius = 0;    ///< how far from where a needle is it may be placed, at most [L]
   double drift = 0;     ///< how far from its cell a needle may come, at most [L]

@@ -17,17 +17,14 @@ concept Lengths = requires(const L& lengths, Needle i) {
   { lengths.reach(i) } -> std::same_as<double>;
 };
 
-/// Lengths from the table of species, which is right for any gas.
-struct SpeciesLengths {
+/// Lengths from the bodies, which is right for any gas.
+struct BodyLengths {
   const Gas& gas;
-  double half_length(Needle i) const { return body(i).half_length; }
-  double reach(Needle i) const { return body(i).reach(); }
-
- private:
-  const Body& body(Needle i) const { return gas.bodies[gas.records[i].species]; }
+  double half_length(Needle i) const { return gas.body(i).half_length; }
+  double reach(Needle i) const { return gas.body(i).reach(); }
 };
 
-static_assert(Lengths<SpeciesLengths>);
+static_assert(Lengths<BodyLengths>);
 
 /// The least power of two that no needle is longer than, from end to end: the unit of length of the
 /// SIMD kernels. [L]

@@ -66,7 +66,7 @@ struct AnyVisit {
 /// Nothing throws but for lack of memory.
 template <class S>
 concept Search = requires(S search, const S& view, Needle i, Time now, const SearchQuery& query,
-                          const std::vector<Needle>& ranks, const SpeciesLengths& lengths,
+                          const std::vector<Needle>& ranks, const BodyLengths& lengths,
                           search_detail::AnyVisit visit) {
   { view.name() } -> std::same_as<const char*>;
   { search.place(i, now, lengths.half_length(i)) } -> std::same_as<Time>;

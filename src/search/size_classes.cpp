@@ -44,16 +44,13 @@ bool are_alike(const Gas& gas, double longest, double lengths, double count) {
          most_seen_for_sizes;
 }
 
-// Puts species into classes, without what is chosen for these.
-SizeClasses grouped_by_length(const Gas& gas) {
-  const std::vector<std::size_t> counts = counts_of_species(gas);
-  const auto extent = [&](std::size_t species) { return 2 * gas.bodies[species].reach(); };
+double extent_of(const Body& body) { return 2 * body.reach(); }
+
+// Puts needles into classes, without what is chosen for these.
+std::vector<SizeClass> grouped_by_length(const Gas& gas) {
   std::map<double, std::size_t, std::greater<>> needles_of;  // by extent, the longest first
-  for (std::size_t s = 0; s < counts.size(); ++s) {
-    if (counts[s] > 0) needles_of[extent(s)] += counts[s];
-  }
-  SizeClasses out;
-  std::map<double, std::size_t> class_of;
+  for (Needle i{0}; i < gas.size(); ++i) ++needles_of[extent_of(gas.body(i))];
+  std::vector<SizeClass> out;
   double lengths = 0;  // sum of those in the last class
   for (const auto& [length, count] : needles_of) {
     const double added = length * static_cast<double>(count);
@@ -62,24 +59,24 @@ SizeClasses grouped_by_length(const Gas& gas) {
       return are_alike(gas, group.longest, lengths + added,
                        static_cast<double>(group.count + count));
     };
-    if (out.all.empty() || !fits(out.all.back())) {
-      out.all.emplace_back().longest = length;
+    if (out.empty() || !fits(out.back())) {
+      out.emplace_back().longest = length;
       lengths = 0;
     }
     lengths += added;
-    out.all.back().count += count;
-    class_of[length] = out.all.size() - 1;
-  }
-  out.of_species.resize(counts.size());
-  for (std::size_t s = 0; s < counts.size(); ++s) {
-    if (counts[s] == 0) continue;
-    const std::size_t its_class = class_of.at(extent(s));
-    SizeClass& its = out.all[its_class];
-    its.axis = std::max(its.axis, gas.composition[s].length);
-    its.diameter = std::max(its.diameter, gas.composition[s].diameter);
-    out.of_species[s] = static_cast<std::uint8_t>(its_class);
+    out.back().count += count;
   }
   return out;
+}
+
+// The longest axis and the largest diameter of each class.
+void measure_bodies(const Gas& gas, std::vector<SizeClass>& classes) {
+  for (Needle i{0}; i < gas.size(); ++i) {
+    const Body& body = gas.body(i);
+    SizeClass& its = classes[class_of_extent(classes, extent_of(body))];
+    its.axis = std::max(its.axis, body.length());
+    its.diameter = std::max(its.diameter, 2 * body.radius);
+  }
 }
 
 // From this crowding on, capsules are cheaper than cells. A little more than in a gas of one
@@ -88,14 +85,15 @@ constexpr double least_for_capsules = 3;
 
 // Needles per L^3 in a gas of one length in which the needles of this class, L long, would collide
 // as often: by the areas of the bodies that two of them exclude, see crowding_by_width().
-double crowding_of_class(const Gas& gas, const SizeClasses& classes, std::size_t number,
+double crowding_of_class(const Gas& gas, const std::vector<SizeClass>& classes, std::size_t number,
                          double density) {
   const Composition& composition = gas.composition;
   const std::vector<std::size_t> counts = counts_of_species(gas);
   double area = 0, members = 0;
   for (std::size_t a = 0; a < composition.size(); ++a) {
     const auto count = static_cast<double>(counts[a]);
-    if (count == 0 || classes.of_species[a] != number) continue;
+    const double extent = extent_of(gas.body_of(composition[a]));
+    if (count == 0 || class_of_extent(classes, extent) != number) continue;
     members += count;
     for (std::size_t b = 0; b < composition.size(); ++b) {
       area +=
@@ -103,32 +101,25 @@ double crowding_of_class(const Gas& gas, const SizeClasses& classes, std::size_t
     }
   }
   const double square = gas.longest * gas.longest, all = static_cast<double>(gas.size()) * members;
-  return density * (area / (all * square)) * (classes.all[number].longest / gas.longest) *
+  return density * (area / (all * square)) * (classes[number].longest / gas.longest) *
          crowding_by_packing(density, composition);
 }
 
 }  // namespace
 
-SizeClasses size_classes(const Gas& gas, const SearchSetup& setup, BoundingVolume kind) {
+std::vector<SizeClass> size_classes(const Gas& gas, const SearchSetup& setup, BoundingVolume kind) {
   const double density = setup.density.value_or(reduced_density(gas));
-  SizeClasses out;
+  std::vector<SizeClass> out;
   if (gas.composition.is_mixture() && !setup.cell_side && !setup.capsule_radius)
     out = grouped_by_length(gas);
   const double by_mean = density_by_mean(density, gas.composition),
                crowd = crowding(density, gas.composition),
                length = mean_length(gas.composition) * gas.longest;
-  if (out.all.size() < 2) {
+  if (out.size() < 2) {
     const bool cells = kind == BoundingVolume::cell;
-    out.all = {{gas.longest, gas.size(), kind}};
-    out.of_species.assign(gas.composition.size(), 0);
-    SizeClass& one = out.all.front();
-    const std::vector<std::size_t> counts = counts_of_species(gas);
-    for (std::size_t s = 0; s < counts.size(); ++s) {
-      if (counts[s] == 0) continue;
-      const Species& each = gas.composition[s];
-      one.axis = std::max(one.axis, each.length);
-      one.diameter = std::max(one.diameter, each.diameter);
-    }
+    out = {{gas.longest, gas.size(), kind}};
+    measure_bodies(gas, out);
+    SizeClass& one = out.front();
     one.cell_side = setup.cell_side.value_or(
         length * (cells ? auto_cell_side(by_mean, crowd) : auto_side_for_capsules(by_mean)));
     if (!cells) {
@@ -139,11 +130,12 @@ SizeClasses size_classes(const Gas& gas, const SearchSetup& setup, BoundingVolum
     }
     return out;
   }
+  measure_bodies(gas, out);
   // Cells of few needles may be emptier than others: no grid is coarser than this, as the cells
   // that threads lock are those of the coarsest one.
   const double widest = std::max(gas.longest, length * auto_cell_side(by_mean, crowd));
-  for (std::size_t n = 0; n < out.all.size(); ++n) {
-    SizeClass& each = out.all[n];
+  for (std::size_t n = 0; n < out.size(); ++n) {
+    SizeClass& each = out[n];
     const double its_crowd = crowding_of_class(gas, out, n, density);
     const double share = static_cast<double>(each.count) / static_cast<double>(gas.size());
     const double cube = each.longest / gas.longest;

@@ -17,7 +17,7 @@ namespace needlework {
 
 /// One class of needles and what the search chooses for it.
 struct SizeClass {
-  double longest = 0;     ///< largest extent of its species [L]
+  double longest = 0;     ///< largest extent of its needles [L]
   std::size_t count = 0;  ///< number of its needles
   BoundingVolume kind = BoundingVolume::cell;
   double cell_side = 0;       ///< wished for [L]
@@ -28,12 +28,15 @@ struct SizeClass {
   bool in_balls = false;
 };
 
-struct SizeClasses {
-  std::vector<SizeClass> all;            ///< the longest first; at least one
-  std::vector<std::uint8_t> of_species;  ///< index of the class of each species
-};
+/// Index of the class of bodies of this extent [L]; the classes are listed from the longest on.
+inline std::size_t class_of_extent(const std::vector<SizeClass>& classes, double extent) {
+  std::size_t index = 0;
+  while (index + 1 < classes.size() && extent <= classes[index + 1].longest) ++index;
+  return index;
+}
 
-/// The classes of a gas. If the setup gives a size, all needles are in one class.
-SizeClasses size_classes(const Gas& gas, const SearchSetup& setup, BoundingVolume kind);
+/// The classes of a gas, the longest first; at least one. If the setup gives a size, all needles
+/// are in one class.
+std::vector<SizeClass> size_classes(const Gas& gas, const SearchSetup& setup, BoundingVolume kind);
 
 }  // namespace needlework

@@ -322,7 +322,7 @@ TEST_F(FalseReportOfContacts, OfAContactHeldTooLongIsSeen) {
         h.event.arm_first = static_cast<double>(touch.arms[0]);
         h.event.arm_second = static_cast<double>(touch.arms[1]);
         for (int i = 0; i < 2; ++i) {
-          const audit::Stance there = motion.at(i, lasted + by);
+          const audit::BodyState there = motion.at(i, lasted + by);
           const auto put = [](std::array<double, 3>& out, const audit::Vector<audit::Extended>& a) {
             for (int axis = 0; axis < 3; ++axis)
               out[static_cast<std::size_t>(axis)] = static_cast<double>(a[axis]);
@@ -351,7 +351,7 @@ TEST_F(FalseReportOfContacts, OfANeedleThatIsPassedInContactIsSeen) {
     const double half = time_between(entry, n) / 2;
     audit::JointMotion motion = motion_from(entry);
     ASSERT_TRUE(motion.follow(2 * half));
-    const audit::Stance there = motion.at(index, half);
+    const audit::BodyState there = motion.at(index, half);
     const audit::Extended arm = 0.3;
     const audit::Vector<audit::Extended> place = there.r + there.u * arm;
     const audit::Vector<audit::Extended> along = audit::cross(there.u, there.v + there.du * arm);

@@ -136,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(Bodies, JointMotionOracle, testing::Values(alike_bodies
 
 TEST(JointMotion, KeepsEnergyMomentumAndContact) {
   RandomContacts contacts(unlike_bodies);
-  const auto energy = [](const audit::Stance& a, const Body& body) {
+  const auto energy = [](const audit::BodyState& a, const Body& body) {
     const Extended inertia = 1 / body.inverse_inertia<Extended>();
     return (body.mass * audit::dot(a.v, a.v) + inertia * audit::dot(a.du, a.du)) / 2;
   };
@@ -169,7 +169,7 @@ TEST(JointMotion, StaysWithinItsBounds) {
       const JointMotion::Most most = motion.most(needle, begin, end);
       double speed = 0, acceleration = 0, turning = 0, faster = 0;
       for (double s = begin; s < end; s += 0.01) {
-        const audit::Stance here = motion.at(needle, s), later = motion.at(needle, s + step);
+        const audit::BodyState here = motion.at(needle, s), later = motion.at(needle, s + step);
         speed = std::max(speed, static_cast<double>(audit::norm(here.v)));
         turning = std::max(turning, static_cast<double>(audit::norm(here.du)));
         const auto rate = [&](const auto& a, const auto& b) {

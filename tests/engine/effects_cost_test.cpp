@@ -49,7 +49,7 @@ std::size_t bytes_allocated = 0;  // by new, in one thread
 namespace needlework {
 namespace {
 
-/// The code of the event processor that the compiler has made for one model: its collide(), and
+/// The code of the event processor that the compiler has made for one model: its meet(), and
 /// what it has for walls and thermostats, which are sources of events.
 struct CollideCode {
   int smooth_calls = 0, rough_calls = 0;  ///< of the collision rule without and with beta
@@ -82,7 +82,7 @@ CodeByLoop read_library() {
   const std::regex loop(
       "<needlework::EventProcessor<needlework::(\\w+), "
       "needlework::NeedleModel<(true|false), needlework::NeedleContact> *>::"
-      "(collide|consider_sources|happen)\\(");
+      "(meet|consider_sources|happen)\\(");
   std::string object;
   CollideCode* code = nullptr;
   char buffer[1 << 16];  // names of templates are long
@@ -95,7 +95,7 @@ CodeByLoop read_library() {
       const std::string symbol = line.substr(line.find('<'));
       if (!std::regex_search(symbol, match, loop)) continue;
       CollideCode& of_model = out[object + ", " + match[1].str()][match[2] == "true"];
-      if (match[3] == "collide") {
+      if (match[3] == "meet") {
         code = &of_model;
       } else {
         ++of_model.sources;

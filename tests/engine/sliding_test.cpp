@@ -517,7 +517,7 @@ TEST(Slides, DepartFromTheFlightsOfRecordsByTheMarginAtMost) {
     gas.let_slide();
     for (const std::size_t i : {0, 1}) {
       const kernels::Flight flight = gas.records[i].flight;
-      renew_record(gas, Needle(i), {}, {flight.u, flight.v, flight.w, 1});
+      renew_record(gas, Needle(i), {}, {flight.r, flight.v, flight.u, flight.w}, 1);
     }
     const Record &first = gas.records[0], &second = gas.records[1];
     // The image in which they touch.
@@ -530,7 +530,7 @@ TEST(Slides, DepartFromTheFlightsOfRecordsByTheMarginAtMost) {
       const double time = slide.step.duration * part / 8;
       for (const int i : {0, 1}) {
         const Record& record = i == 0 ? first : second;
-        const kernels::Stance there = slide.at(i, record.flight, {}, time);
+        const kernels::BodyState there = slide.at(i, record.flight, {}, time);
         const FreeFlight flight = gas.motion(record);
         for (const double arm : {-0.5, 0.5}) {
           const Vec3d off =

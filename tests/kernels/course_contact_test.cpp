@@ -11,16 +11,16 @@ namespace {
 /// A needle that moves in a straight line.
 class StraightCourse final : public Course {
  public:
-  explicit StraightCourse(const Stance& begin) : begin_(begin) {
+  explicit StraightCourse(const BodyState& begin) : begin_(begin) {
     lasts = 1;
     speed = std::sqrt(dot(begin.v, begin.v));
   }
-  Stance at(double s) const override {
+  BodyState at(double s) const override {
     return {begin_.r + begin_.v * s, begin_.v, begin_.u, begin_.w};
   }
 
  private:
-  Stance begin_;
+  BodyState begin_;
 };
 
 /// Two crossed needles, the first of which moves down on the second, with f = z.

@@ -27,7 +27,7 @@ class FlightCourse final : public Course {
     acceleration = std::sqrt(dot(gravity_, gravity_));
     turning = flight_.omega;
   }
-  Stance at(double s) const override {
+  BodyState at(double s) const override {
     const FreeFlight motion(flight_, &gravity_);
     return {motion.centre(s), motion.velocity(s), motion.director(s), flight_.w};
   }

@@ -36,8 +36,8 @@ LAYERS = [
           ["base", "memory", "archive", "composition", "kernels", "box"]),
     # What an effect reports has a kind, as the trajectory knows it.
     Layer("effects", ["src/effects"], [],
-          ["base", "memory", "archive", "composition", "random", "kernels", "box", "physics"],
-          ["trajectory"]),
+          ["base", "memory", "archive", "composition", "random", "kernels", "box", "trajectory",
+           "physics"]),
     Layer("search", ["src/search"], [],
           ["base", "memory", "composition", "kernels", "box", "trajectory", "physics"]),
     Layer("calendar", ["src/calendar"], [], ["base", "memory", "kernels", "physics"]),

@@ -12,11 +12,13 @@
 #include "tests/support/kernel_pair.h"
 #include "tests/support/random.h"
 #include "tests/support/real.h"
+#include "tests/support/renew.h"
 
 namespace needlework {
 namespace {
 
 using test::Random;
+using test::renew_in_flight;
 using test::vec3;
 using test::Wide;
 
@@ -50,7 +52,7 @@ TEST(RenewRecord, WrapsTheCentreAndCountsTheImages) {
     const double elapsed = gas.clock.difference(now, gas.records[0].time);
     const Shift images = gas.images[0];
     const Shift wraps =
-        renew_record(gas, needle, now, {{0, 1, 0}, vec3(random.normal_vector(20)), {}});
+        renew_in_flight(gas, needle, now, {0, 1, 0}, {vec3(random.normal_vector(20)), {}});
     ASSERT_EQ(gas.images[0], images + wraps);
     const auto r = components(gas.records[0].flight.r), speed = components(v);
     for (int axis = 0; axis < 3; ++axis) {
@@ -72,7 +74,7 @@ TEST(RenewRecord, WrapsCentresOnAndNextToTheWallsWithoutLosingTheirPlace) {
                          std::nextafter(box, 3), -1e-18, -1e-300, 1e-300, -1e9}) {
     Gas gas = gas_of(1, {box, box, box});
     gas.records[0].flight = test::flight({x, 1, 1}, {1, 0, 0}, {}, {});
-    const Shift wraps = renew_record(gas, needle, {}, {{1, 0, 0}, {}, {}});
+    const Shift wraps = renew_in_flight(gas, needle, {}, {1, 0, 0});
     const double r = gas.records[0].flight.r.x;
     EXPECT_GE(r, 0) << x;
     EXPECT_LE(r, box) << x;
@@ -90,7 +92,7 @@ TEST(RenewRecord, LeavesAUnitDirectorAndAnAngularVelocityNormalToIt) {
     const Vec3d director = vec3(random.direction()) * size, w = vec3(random.direction()) * spin;
     const Vec3d v = vec3(random.direction());
     gas.add_touch(needle, {});
-    renew_record(gas, needle, {}, {director, v, w});
+    renew_in_flight(gas, needle, {}, director, {v, w});
     const kernels::Flight& flight = gas.records[0].flight;
     ASSERT_NEAR(dot(flight.u, flight.u), 1, 1e-15) << "seed " << seed << ", " << n;
     ASSERT_NEAR(dot(flight.w * (1 / spin), flight.u), 0, 1e-15) << "seed " << seed << ", " << n;
@@ -116,7 +118,7 @@ TEST(RenewRecord, FromItsOwnFreeFlightChangesNothingButRounding) {
     const kernels::Flight before = record.flight;
     const Time now = gas.clock.add(record.time, random.uniform(0, 2));
     const double elapsed = gas.clock.difference(now, record.time), later = random.uniform(0, 2);
-    renew_record(gas, needle, now, {director_after(before, elapsed), before.v, before.w});
+    renew_in_flight(gas, needle, now, director_after(before, elapsed), {before.v, before.w});
     const Vec3d u = director_after(record.flight, later) - director_after(before, elapsed + later);
     ASSERT_LT(std::sqrt(dot(u, u)), 1e-14) << "seed " << seed << ", " << n;
   }
@@ -268,7 +270,7 @@ TEST(MakePair, FindsEachOfManyTouches) {
   };
   expect_all(gas.records[0]);
   // A new record keeps no touches; a copy of the one before, as an undo log keeps it, still does.
-  renew_record(gas, needle, {}, {{1, 0, 0}, {}, {}});
+  renew_in_flight(gas, needle, {}, {1, 0, 0});
   for (std::size_t other = 1; other < 6; ++other) {
     EXPECT_FALSE(touch(gas.records[0], other, {static_cast<int>(other), 0, -1}).touching);
   }
@@ -280,7 +282,7 @@ TEST(MakePair, FindsEachOfManyTouches) {
   }
   gas.records[0] = copy;
   expect_all(gas.records[0]);
-  renew_record(gas, needle, {}, {{1, 0, 0}, {}, {}});
+  renew_in_flight(gas, needle, {}, {1, 0, 0});
   for (const std::uint32_t id : {4u, 5u}) {
     gas.add_touch(needle, RecordedTouch::of(Id{id}, 0, {}, again));
   }
@@ -309,18 +311,25 @@ TEST(Gas, KnowsTheBodiesOfItsSpecies) {
   gas.set_composition(
       Composition({{.length = 0.5, .mass = 4, .k = 2}, {.length = 3, .mass = 0.25, .k = 6}}, {}));
   EXPECT_EQ(gas.longest, 3);
-  ASSERT_EQ(gas.bodies.size(), 2u);
-  EXPECT_EQ(gas.bodies[0].half_length, 0.25);
-  EXPECT_EQ(gas.bodies[0].inverse_mass, 0.25);
-  // I = m L^2 / (2 k)
-  EXPECT_EQ(gas.bodies[0].inverse_inertia, 4);
-  EXPECT_EQ(gas.composition[0].inertia(), 0.25);
-  EXPECT_EQ(2 * gas.bodies[1].half_length, 3);
-  EXPECT_EQ(gas.bodies[1].inverse_mass, 4);
-  EXPECT_EQ(gas.bodies[1].inverse_inertia, 12 / (0.25 * 9));
   gas.records[1].species = 1;
-  EXPECT_EQ(gas.species_of(gas.records[0]).length, 0.5);
-  EXPECT_EQ(gas.species_of(gas.records[1]).length, 3);
+  const Body &first = gas.body(Needle(0)), &second = gas.body(Needle(1));
+  EXPECT_EQ(first.half_length, 0.25);
+  EXPECT_EQ(first.inverse_mass, 0.25);
+  // I = m L^2 / (2 k)
+  EXPECT_EQ(first.inverse_inertia, 4);
+  EXPECT_EQ(first.inertia, 0.25);
+  EXPECT_EQ(2 * second.half_length, 3);
+  EXPECT_EQ(second.inverse_mass, 4);
+  EXPECT_EQ(second.inverse_inertia, 12 / (0.25 * 9));
+  EXPECT_EQ(first.length(), 0.5);
+  EXPECT_EQ(first.mass, 4);
+  EXPECT_EQ(second.length(), 3);
+  // What needles depart from their flights adds to their reach, not to their width.
+  gas.let_slide();
+  EXPECT_EQ(gas.longest, 3 * (1 + 0x1p-4));
+  EXPECT_EQ(gas.body(Needle(1)).reach(), 1.5 * (1 + 0x1p-4));
+  EXPECT_EQ(gas.body(Needle(1)).radius, 0);
+  EXPECT_EQ(gas.body(Needle(1)).extent(), 3);
 }
 
 // However few there are of each.

@@ -156,7 +156,7 @@ struct Moving {
 
   Random& random;
   Gas gas;
-  SpeciesLengths lengths{gas};
+  BodyLengths lengths{gas};
   Counters counters;
   NearSearch search;
   std::vector<Time> until;

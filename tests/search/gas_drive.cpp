@@ -59,7 +59,7 @@ std::string describe(Needle i, Needle j, const Shift& shift) {
          std::to_string(shift[0]) + " " + std::to_string(shift[1]) + " " + std::to_string(shift[2]);
 }
 
-double length_of(const Gas& gas, Needle i) { return 2 * SpeciesLengths{gas}.half_length(i); }
+double length_of(const Gas& gas, Needle i) { return 2 * BodyLengths{gas}.half_length(i); }
 
 double reach_of(const Gas& gas, Needle i, Needle j) {
   return 0.5 * (length_of(gas, i) + length_of(gas, j));
@@ -67,8 +67,8 @@ double reach_of(const Gas& gas, Needle i, Needle j) {
 
 kernels::Pair pair_in_order(const Gas& gas, Needle a, Needle b, const Shift& shift) {
   kernels::Pair pair = make_pair(gas, a, gas.records[a], b, gas.records[b], shift);
-  pair.half_first = SpeciesLengths{gas}.half_length(a);
-  pair.half_second = SpeciesLengths{gas}.half_length(b);
+  pair.half_first = BodyLengths{gas}.half_length(a);
+  pair.half_second = BodyLengths{gas}.half_length(b);
   return pair;
 }
 
@@ -101,7 +101,7 @@ Gas gas_of(std::size_t count, std::array<double, 3> box, const std::vector<doubl
 void put(Gas& gas, Needle i, const Vec3d& r, const Vec3d& u, const Vec3d& v, const Vec3d& w) {
   gas.records[i].flight.r = r;
   gas.records[i].flight.v = {};
-  renew_record(gas, i, gas.records[i].time, {u, v, w, length_of(gas, i)});
+  renew_in_flight(gas, i, gas.records[i].time, u, {v, w});
 }
 
 Velocities draw_velocities(Random& random, const Speeds& speeds) {
@@ -232,7 +232,7 @@ void GasDrive::advance(double dt) {
 void GasDrive::strike(Needle i, const Velocities& velocities) {
   const Record& record = gas_.records[i];
   const Vec3d u = director_after(record.flight, gas_.clock.difference(now_, record.time));
-  renew_record(gas_, i, now_, {u, velocities.v, velocities.w, length_of(gas_, i)});
+  renew_in_flight(gas_, i, now_, u, velocities);
   struck_at_ = Time::never();
   place_everywhere(i);
 }
@@ -356,14 +356,14 @@ void GasDrive::bounce(Needle i, double epsilon) {
   now_ = then;
   const kernels::ContactGeometry at =
       contact_geometry(pair_in_order(gas_, a, b, shift), gas_.clock.exact_difference(now_, start));
-  const Impact impact = collide<Surface::smooth>(
-      {first.flight.v, first.flight.w, second.flight.v, second.flight.w, gas_.bodies[first.species],
-       gas_.bodies[second.species], at, next->contact.side},
-      {.epsilon = epsilon, .beta = -1});
+  const Impact impact =
+      collide<Surface::smooth>({first.flight.v, first.flight.w, second.flight.v, second.flight.w,
+                                gas_.body(a), gas_.body(b), at, next->contact.side},
+                               {.epsilon = epsilon, .beta = -1});
   const Shift wraps_a =
-      renew_record(gas_, a, now_, {at.u_first, impact.v_first, impact.w_first, length_of(gas_, a)});
-  const Shift wraps_b = renew_record(
-      gas_, b, now_, {at.u_second, impact.v_second, impact.w_second, length_of(gas_, b)});
+      renew_in_flight(gas_, a, now_, at.u_first, {impact.v_first, impact.w_first});
+  const Shift wraps_b =
+      renew_in_flight(gas_, b, now_, at.u_second, {impact.v_second, impact.w_second});
   const Shift wrapped = shift + wraps_b - wraps_a;
   const kernels::Touch touch{
       .touching = true, .collided = true, .side = next->contact.side, .gap = 0};

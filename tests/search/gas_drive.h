@@ -13,6 +13,7 @@
 
 #include "kernels/first_contact.h"
 #include "tests/support/random.h"
+#include "tests/support/renew.h"
 #include "tests/support/searches.h"
 
 namespace needlework::test {
@@ -31,9 +32,6 @@ struct Speeds {
 };
 
 /// Of a needle: linear and angular.
-struct Velocities {
-  Vec3d v, w;
-};
 Velocities draw_velocities(Random& random, const Speeds& speeds);
 
 /// `count` needles anywhere in the box.

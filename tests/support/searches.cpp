@@ -35,7 +35,7 @@ class Wrapped final : public AnySearch {
   const CellGrid* grid() const override { return grid_of(search_); }
 
  private:
-  SpeciesLengths lengths_;
+  BodyLengths lengths_;
   S search_;
 };
 

@@ -28,12 +28,12 @@ SourceEvent Andersen::next(const Gas&, Needle i, Time, Time until) const {
 
 SourceOutcome Andersen::happen(const Gas& gas, const NeedleAt& at, std::int8_t) {
   NeedleRandom random(parameters_.seed, at.id.value, RandomFor::thermostat, ++redraws_[at.needle]);
-  const double mass = at.species.mass, inertia = at.species.inertia();
+  const double mass = at.body.mass, inertia = at.body.inertia;
   SourceOutcome out;
   out.changes_motion = true;
   out.velocity = vector_of(random.normal()) * std::sqrt(parameters_.temperature / mass);
   // Spheres draw the same numbers, and do not turn.
-  const double spread = at.species.turns() ? std::sqrt(parameters_.temperature / inertia) : 0;
+  const double spread = at.body.turns() ? std::sqrt(parameters_.temperature / inertia) : 0;
   out.angular_velocity = project_out(vector_of(random.normal()) * spread, at.director);
   next_[at.needle] = gas.clock.add(at.now, random.exponential() / parameters_.rate);
   const Vec3d &v = out.velocity, &w = out.angular_velocity;

@@ -49,15 +49,36 @@ bool Sliding::is_strike(const Gas& gas, const SlidingPair& pair, Time now) const
   return touches(pair.first_needle) || touches(pair.second_needle);
 }
 
-Sliding::Touch Sliding::touch(const Gas& gas, const SlidingPair& pair, Time now,
-                              const kernels::ContactGeometry& geometry, int side,
-                              const Restitution& rule, double mean_free_time) const {
+Sliding::Outcome Sliding::outcome(const Gas& gas, const Due& due) const {
+  const Needle a = due.pair.first_needle, b = due.pair.second_needle;
+  Outcome out = decided(gas, due);
+  if (out.bond_before == SlidingPair::Bond::whole) {
+    out.step = std::max(0.0, gas.clock.difference(due.now, gas.records[a].time));
+    return out;
+  }
+  const auto cut = [&](Needle i, Needle other) -> std::optional<double> {
+    if (gas.records[i].first_touch.partner == gas.ids[other]) return std::nullopt;
+    return cut_by_event(gas, i, due.now);
+  };
+  out.cut_first = cut(a, b);
+  out.cut_second = cut(b, a);
+  return out;
+}
+
+std::optional<double> Sliding::cut_by_event(const Gas& gas, Needle i, Time now) {
+  const Record& record = gas.records[i];
+  if (!record.is_sliding()) return std::nullopt;
+  return std::max(0.0, gas.clock.difference(now, record.time));
+}
+
+Sliding::Outcome Sliding::decided(const Gas& gas, const Due& due) const {
   using Bond = SlidingPair::Bond;
+  const auto& [pair, now, geometry, side, rule, mean_free_time] = due;
   const Needle a = pair.first_needle, b = pair.second_needle;
-  const Record &mine = gas.records[a], &other = gas.records[b];
-  const kernels::SlidingBodies bodies = sliding_bodies(gas, mine, other);
-  Touch out;
-  out.side = out.side_after = side;
+  const kernels::SlidingBodies bodies = sliding_bodies(gas, a, b);
+  Outcome out;
+  out.bond_before = pair.bond;
+  out.side = side;
   out.first = gas.present(a, now);
   out.second = gas.present(b, now);
   out.first.u = geometry.u_first;
@@ -83,7 +104,7 @@ Sliding::Touch Sliding::touch(const Gas& gas, const SlidingPair& pair, Time now,
   // Needles that part do so faster than rounding.
   const double least = velocity_noise * speeds;
   const auto part_to = [&](int to, double speed) {
-    out.side_after = to;
+    out.side = to;
     if (!(speed * to > least)) push((to * 2 * least - speed) / contact.inverse);
   };
   const double speed = contact.speed;
@@ -92,24 +113,27 @@ Sliding::Touch Sliding::touch(const Gas& gas, const SlidingPair& pair, Time now,
     // What rounding has added to f' is taken off.
     if (out.end == SlidingEnd::None) {
       push(-speed / contact.inverse);
-      out.course = Course::goes_on;
+      out.bond = BondChange::continues;
     } else {
       part_to(kernels::side_after(out.end, side), speed);
-      out.course = Course::parts;
+      out.bond = BondChange::ends;
     }
+    out.collides = false;
     return out;
   }
   if (pair.bond == Bond::cut && speed * side >= -least) {
     // The strike has not changed how the two move on each other, or it has torn them apart.
     const bool is_pressed = side * contact.force > contact.noise;
     const bool stays = std::abs(speed) <= least && is_pressed && contact.rate > 0;
-    out.course = stays ? Course::goes_on : Course::parts;
+    out.bond = stays ? BondChange::continues : BondChange::ends;
     if (stays)
       push(-speed / contact.inverse);
     else
       part_to(side, speed);
+    out.collides = false;
     return out;
   }
+  if (pair.bond == Bond::cut) out.bond = BondChange::ends;
   const double into = speed * side < 0 ? speed : 0;
   const double below = parameters_.below * mean_free_time;
   // Twice the threshold, as flights of crowded pairs last for about that.
@@ -119,48 +143,68 @@ Sliding::Touch Sliding::touch(const Gas& gas, const SlidingPair& pair, Time now,
   if (into != 0 && !elastic) {
     const kernels::SlidingEntry entry =
         kernels::sliding_entry(bodies, here, rule.epsilon, below, crowded);
-    if (entry.decision == kernels::SlidingDecision::Enters) out.course = Course::enters;
+    if (entry.decision == kernels::SlidingDecision::Enters) out.bond = BondChange::begins;
     epsilon = entry.epsilon;
   }
   out.crowded = crowded;
   const std::uint32_t in_crowd = std::max((*meetings_)[a].in_crowd, (*meetings_)[b].in_crowd);
   if (elastic || (crowded && in_crowd >= most_in_crowd)) epsilon = 1;
   out.raised = epsilon != rule.epsilon;
-  if (out.course == Course::enters) epsilon = 0;
-  const Meeting both{out.first.v,
-                     out.first.w,
-                     out.second.v,
-                     out.second.w,
-                     gas.bodies[mine.species],
-                     gas.bodies[other.species],
-                     geometry,
-                     side};
+  if (out.are_bonded()) epsilon = 0;
+  const Meeting both{out.first.v, out.first.w, out.second.v, out.second.w,
+                     gas.body(a), gas.body(b), geometry,     side};
   const Impact impact = collide<Surface::smooth>(both, {.epsilon = epsilon, .beta = -1});
   out.first.v = impact.v_first, out.first.w = impact.w_first;
   out.second.v = impact.v_second, out.second.w = impact.w_second;
-  if (out.course == Course::collides) part_to(side, -epsilon * into);
+  if (!out.are_bonded()) part_to(side, -epsilon * into);
   out.impulse = impact.impulse;
   out.normal_velocity = impact.normal_velocity;
   out.energy_change = impact.energy_change;
   return out;
 }
 
-void Sliding::met(const Gas& gas, Needle a, Needle b, Time now, bool crowded) {
-  (*meetings_)[a].met(gas.ids[b], now, crowded);
-  (*meetings_)[b].met(gas.ids[a], now, crowded);
+void Sliding::join(Gas& gas, Needle a, Needle b, const Shift& shift, int side) {
+  const Id first = gas.ids[a], second = gas.ids[b];
+  const std::uint32_t serial_first = gas.records[a].serial, serial_second = gas.records[b].serial;
+  const Slide slide = make_slide(gas, a, b, shift, side);
+  gas.slides->put(first, serial_first, slide);
+  gas.add_touch(a, RecordedTouch::bond(second, serial_second, shift, side, slide.faster[0]));
+  gas.add_touch(b, RecordedTouch::bond(first, serial_first, -shift, side, slide.faster[1]));
 }
 
-void Sliding::join(Gas& gas, Needle a, Needle b, const Shift& shift, int side) {
-  const Record &first = gas.records[a], &second = gas.records[b];
-  const Slide slide = make_slide(gas, first, second, shift, side);
-  kernels::Touch touch{.touching = true, .collided = true, .side = 2 * side, .gap = 0};
-  gas.slides->put(gas.ids[a], first.serial, slide);
-  touch.gap = slide.faster[0];
-  const auto of_first = RecordedTouch::of(gas.ids[b], second.serial, shift, touch);
-  touch.gap = slide.faster[1];
-  const auto of_second = RecordedTouch::of(gas.ids[a], first.serial, -shift, touch);
-  gas.add_touch(a, of_first);
-  gas.add_touch(b, of_second);
+namespace {
+
+// Makes their new records those of needles that part.
+void part(Gas& gas, Needle a, Needle b, const Shift& shift, int side) {
+  const kernels::Touch parted{.touching = true, .collided = true, .side = side, .gap = 0};
+  gas.add_touch(a, RecordedTouch::of(gas.ids[b], gas.records[b].serial, shift, parted));
+  gas.add_touch(b, RecordedTouch::of(gas.ids[a], gas.records[a].serial, -shift, parted));
+}
+
+}  // namespace
+
+void Sliding::settle(Gas& gas, Needle a, Needle b, const Shift& shift, Time now,
+                     const Outcome& outcome, SlidingTally& tally) {
+  if (outcome.are_bonded()) {
+    join(gas, a, b, shift, outcome.side);
+  } else {
+    part(gas, a, b, shift, outcome.side);
+  }
+  (*meetings_)[a].met(gas.ids[b], now, outcome.crowded);
+  (*meetings_)[b].met(gas.ids[a], now, outcome.crowded);
+  if (outcome.cut_first) tally.cut(*outcome.cut_first);
+  if (outcome.cut_second) tally.cut(*outcome.cut_second);
+  tally.crowded += outcome.raised;
+  if (outcome.step) {
+    tally.time.add(*outcome.step);
+    ++tally.steps;
+    tally.by_force += outcome.end == SlidingEnd::Force;
+    tally.by_tip += outcome.end == SlidingEnd::Tip;
+  } else if (outcome.bond == BondChange::continues) {
+    --tally.by_strike;  // what has cut the contact was no end of it
+  } else {
+    tally.entered += outcome.are_bonded();
+  }
 }
 
 }  // namespace needlework

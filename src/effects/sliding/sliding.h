@@ -9,10 +9,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "src/archive/archive.h"
-#include "src/physics/collision.h"
+#include "src/effects/sliding/sliding_tally.h"
 #include "src/physics/gas.h"
+#include "src/physics/pair_outcome.h"
 #include "src/physics/sliding_contact.h"
 #include "src/physics/transfer.h"
 
@@ -57,43 +59,51 @@ class Sliding {
   /// Adds its column to the gas and lets needles slide.
   Sliding(Gas& gas, const Parameters& parameters);
 
-  /// What two needles do when an event of their pair is due.
-  enum class Course : std::uint8_t {
-    collides,  ///< an impulse; the needles part
-    enters,    ///< an impulse, after which they are in contact
-    goes_on,   ///< they stay in contact
-    parts      ///< a contact ends without an impulse
-  };
-  struct Touch {
-    Course course = Course::collides;
-    kernels::Stance first, second;  ///< after the event, in the frames of their records
-    int side = 0;                   ///< sign of f before the event, and in contact
-    int side_after = 0;             ///< of needles that are not in contact
-    double normal_velocity = 0, energy_change = 0;
-    Vec3d impulse;                                        ///< on the first needle [m L / time]
+  /// What two needles do when an event of their pair is due. Those in contact part by a collision,
+  /// or without one.
+  struct Outcome : PairOutcome {
+    SlidingPair::Bond bond_before = SlidingPair::Bond::none;
     kernels::SlidingEnd end = kernels::SlidingEnd::None;  ///< of a contact that ends by itself
     bool crowded = false;  ///< one of the two has just touched a third needle
     bool raised = false;   ///< and epsilon has been raised for that, or for a strike
+    /// How long contacts have lasted that the event cuts, of each needle with a third one, and the
+    /// step of that of the two. [time]
+    std::optional<double> cut_first, cut_second, step;
+
+    /// The two are so nearly parallel that their motion in contact cannot be resolved.
+    bool is_unresolvable() const { return end == kernels::SlidingEnd::Unresolvable; }
   };
-  /// `mean_free_time` is that of the window, `rule` that of the pair.
-  Touch touch(const Gas& gas, const SlidingPair& pair, Time now,
-              const kernels::ContactGeometry& geometry, int side, const Restitution& rule,
-              double mean_free_time) const;
-  /// Notes that they have touched.
-  void met(const Gas& gas, Needle a, Needle b, Time now, bool crowded);
+  /// An event of a pair that is due.
+  struct Due {
+    const SlidingPair& pair;
+    Time now;
+    const kernels::ContactGeometry& geometry;
+    int side;  ///< sign of f before it
+    const Restitution& rule;
+    double mean_free_time;  ///< of the window
+  };
+  Outcome outcome(const Gas& gas, const Due& due) const;
+  /// To be called when the records of both have been replaced by those of the outcome: joins bonded
+  /// ones, notes that they have touched, and counts. `shift` is that of their new records.
+  void settle(Gas& gas, Needle a, Needle b, const Shift& shift, Time now, const Outcome& outcome,
+              SlidingTally& tally);
+  /// Makes the new records of two needles those of a contact, into which they came from `side`.
+  static void join(Gas& gas, Needle a, Needle b, const Shift& shift, int side);
+  /// How long the contact has lasted of which needle i has a record, which another event replaces
+  /// now; nothing if it slides on no needle. An event of the pair is then due at once. [time]
+  static std::optional<double> cut_by_event(const Gas& gas, Needle i, Time now);
   /// Notes that a needle has hit a wall.
   void hit_wall(Needle i, Time now) { (*meetings_)[i].note(Meetings::wall, now); }
   /// Notes that the contact of a needle is ended as the velocities of all are set.
   void let_go(Needle i, const Record& record, Time now) {
     if (parameters_.elastic_strikes) (*meetings_)[i].note(record.first_touch.partner, now);
   }
-  /// Makes their new records those of a contact.
-  static void join(Gas& gas, Needle a, Needle b, const Shift& shift, int side);
 
   double below() const { return parameters_.below; }
   bool strikes_are_elastic() const { return parameters_.elastic_strikes; }
 
  private:
+  Outcome decided(const Gas& gas, const Due& due) const;
   bool is_crowded(const Gas& gas, const SlidingPair& pair, Time now, double within) const;
   bool is_strike(const Gas& gas, const SlidingPair& pair, Time now) const;
 

@@ -23,16 +23,16 @@ constexpr unsigned bits_of_tips = 12;
 double sign_of(int tip) { return tip == 0 ? 1 : -1; }
 
 // Of a tip along the normal of a wall: velocity per impulse. `share` is the director's component.
-double mobility_of(const Species& species, double arm, double share) {
-  if (!species.turns()) return 1 / species.mass;
-  return 1 / species.mass + arm * arm / species.inertia() * (1 - share * share);
+double mobility_of(const Body& body, double arm, double share) {
+  if (!body.turns()) return 1 / body.mass;
+  return 1 / body.mass + arm * arm / body.inertia * (1 - share * share);
 }
 
 // By how much an impulse on a tip along the normal turns a needle.
-Vec3d turn_by(const Species& species, const Vec3d& director, const Vec3d& normal, double arm,
+Vec3d turn_by(const Body& body, const Vec3d& director, const Vec3d& normal, double arm,
               double impulse) {
-  if (!species.turns()) return {};
-  return cross(director, normal) * (arm * impulse / species.inertia());
+  if (!body.turns()) return {};
+  return cross(director, normal) * (arm * impulse / body.inertia);
 }
 
 }  // namespace
@@ -104,14 +104,14 @@ SourceEvent Walls::next(const Gas& gas, Needle i, Time now, Time until) const {
   }
   for (std::size_t n = 0; n < walls_.size(); ++n) {
     const Wall& wall = walls_[n];
-    const Species& species = gas.species_of(record);
+    const Body& body = gas.body(i);
     // The caps of rods touch where the ends of their axes are half a diameter away.
     kernels::WallPlane plane = wall.plane;
-    plane.place += plane.normal * (0.5 * species.diameter);
+    plane.place += plane.normal * body.radius;
     const kernels::WallApproach approach{.flight = &record.flight,
                                          .gravity = component(gas.gravity, wall.plane.axis),
-                                         .half = 0.5 * species.length,
-                                         .radius = 0.5 * species.diameter,
+                                         .half = body.half_length,
+                                         .radius = body.radius,
                                          .wall = plane,
                                          .turns = turns_at(gas.clock, wall, record.time),
                                          .touching = touching(record, i, n),
@@ -135,23 +135,23 @@ SourceEvent Walls::next(const Gas& gas, Needle i, Time now, Time until) const {
 // the tip leaves with the flux-weighted distribution.
 void Walls::leave_with_temperature(const NeedleAt& at, const Wall& wall, const Vec3d& normal,
                                    double arm, SourceOutcome& outcome) {
-  const Species& species = at.species;
-  const double temperature = wall.temperature, inertia = species.inertia();
+  const Body& body = at.body;
+  const double temperature = wall.temperature, inertia = body.inertia;
   const double share = component(at.director, wall.plane.axis);
-  const double mobility = mobility_of(species, arm, share);
+  const double mobility = mobility_of(body, arm, share);
   NeedleRandom random(seed_, at.id.value, RandomFor::thermal_wall, (*draws_)[at.needle]++);
-  const Vec3d v = vector_of(random.normal()) * std::sqrt(temperature / species.mass);
-  const double spread = species.turns() ? std::sqrt(temperature / inertia) : 0;
+  const Vec3d v = vector_of(random.normal()) * std::sqrt(temperature / body.mass);
+  const double spread = body.turns() ? std::sqrt(temperature / inertia) : 0;
   const Vec3d w = project_out(vector_of(random.normal()) * spread, at.director);
   const double drawn = dot(v + cross(w, at.director) * arm, normal);
   const double leaving = std::sqrt(2 * temperature * mobility * random.exponential());
   const double impulse = (leaving - drawn) / mobility;
-  outcome.velocity = v + normal * (impulse / species.mass);
-  outcome.angular_velocity = w + turn_by(species, at.director, normal, arm, impulse);
+  outcome.velocity = v + normal * (impulse / body.mass);
+  outcome.angular_velocity = w + turn_by(body, at.director, normal, arm, impulse);
   // The impulse that the wall has given, along its normal and besides.
-  outcome.impulse = (outcome.velocity - at.velocity) * species.mass;
+  outcome.impulse = (outcome.velocity - at.velocity) * body.mass;
   const auto energy = [&](const Vec3d& its_v, const Vec3d& its_w) {
-    return 0.5 * (species.mass * dot(its_v, its_v) + inertia * dot(its_w, its_w));
+    return 0.5 * (body.mass * dot(its_v, its_v) + inertia * dot(its_w, its_w));
   };
   outcome.energy_change =
       energy(outcome.velocity, outcome.angular_velocity) - energy(at.velocity, at.angular_velocity);
@@ -160,8 +160,8 @@ void Walls::leave_with_temperature(const NeedleAt& at, const Wall& wall, const V
 SourceOutcome Walls::happen(const Gas& gas, const NeedleAt& at, std::int8_t detail) {
   const auto n = static_cast<std::size_t>(detail / 2);
   const Wall& wall = walls_[n];
-  const Species& species = at.species;
-  const double arm = sign_of(detail % 2) * (0.5 * species.length);
+  const Body& body = at.body;
+  const double arm = sign_of(detail % 2) * body.half_length;
   const double sign = wall.plane.normal;
   const Vec3d normal{wall.plane.axis == 0 ? sign : 0, wall.plane.axis == 1 ? sign : 0,
                      wall.plane.axis == 2 ? sign : 0};
@@ -184,12 +184,11 @@ SourceOutcome Walls::happen(const Gas& gas, const NeedleAt& at, std::int8_t deta
     leave_with_temperature(at, wall, normal, arm, out);
     out.normal_impulse = dot(out.impulse, normal);
   } else {
-    const double mobility = mobility_of(species, arm, component(at.director, wall.plane.axis));
+    const double mobility = mobility_of(body, arm, component(at.director, wall.plane.axis));
     const double epsilon = out.contact_time_rule ? 1 : wall.epsilon;
     const double impulse = -(1 + epsilon) * out.normal_velocity / mobility;
-    out.velocity = at.velocity + normal * (impulse / species.mass);
-    out.angular_velocity =
-        at.angular_velocity + turn_by(species, at.director, normal, arm, impulse);
+    out.velocity = at.velocity + normal * (impulse / body.mass);
+    out.angular_velocity = at.angular_velocity + turn_by(body, at.director, normal, arm, impulse);
     out.impulse = normal * impulse;
     out.normal_impulse = impulse;
     out.energy_change = impulse * (tip + 0.5 * impulse * mobility);
@@ -198,9 +197,8 @@ SourceOutcome Walls::happen(const Gas& gas, const NeedleAt& at, std::int8_t deta
   const std::uint64_t before = touching_[at.needle];
   const bool same_instant = before >> bits_of_tips == at.record.serial && at.record.time == at.now;
   const std::uint64_t tips = same_instant ? before & ((1u << bits_of_tips) - 1) : 0;
-  touching_[at.needle] =
-      std::uint64_t{at.record.serial + 1u} << bits_of_tips | tips |
-      (species.turns() ? std::uint64_t{1} << detail : std::uint64_t{3} << (2 * n));
+  touching_[at.needle] = std::uint64_t{at.record.serial + 1u} << bits_of_tips | tips |
+                         (body.turns() ? std::uint64_t{1} << detail : std::uint64_t{3} << (2 * n));
   return out;
 }
 

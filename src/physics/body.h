@@ -1,0 +1,43 @@
+// What flight and collisions need to know of a body.
+#pragma once
+
+#include "needlework/composition.h"
+
+namespace needlework {
+
+/// A needle, rod or sphere. The factors of a needle of length 1 and mass 1 are exact.
+struct Body {
+  double half_length = 0.5;  ///< of the axis [L]
+  double radius = 0;         ///< half the diameter, 0 for needles [L]
+  /// How far any point of it may depart from the flight of its record, where needles slide. [L]
+  double departure = 0;
+  double mass = 1;
+  double inertia = 1.0 / 12;    ///< 0 for spheres, whose rotation nothing changes [m L^2]
+  double inverse_mass = 1;      ///< [1 / m]
+  double inverse_inertia = 12;  ///< 2 k / (m L^2), 0 for spheres [1 / (m L^2)]
+
+  bool turns() const { return inertia > 0; }
+  double length() const { return 2 * half_length; }        ///< of the axis [L]
+  double extent() const { return length() + 2 * radius; }  ///< from end to end [L]
+  /// From the centre: centres of two bodies in contact are no farther apart than both reach. [L]
+  double reach() const { return half_length + width(); }
+  /// From the axis. [L]
+  double width() const { return radius + departure; }
+};
+
+inline Body body_of(const Species& species) {
+  const double squares = species.mass * (species.length * species.length);
+  return {.half_length = 0.5 * species.length,
+          .radius = 0.5 * species.diameter,
+          .mass = species.mass,
+          .inertia = species.inertia(),
+          .inverse_mass = 1 / species.mass,
+          .inverse_inertia = species.turns() ? 2 * species.k / squares : 0};
+}
+
+/// Whether the model looks up nothing for this species, because all its factors are 1.
+inline bool is_unit(const Species& species) {
+  return species.length == 1 && species.mass == 1 && species.diameter == 0;
+}
+
+}  // namespace needlework
