@@ -45,8 +45,8 @@ double unit_of(const Composition& composition) {
   return std::ldexp(1.0, mantissa == 0.5 ? exponent - 1 : exponent);
 }
 
-std::vector<Body> bodies_of(const Composition& composition, double unit) {
-  std::vector<Body> out;
+std::vector<AuditedBody> bodies_of(const Composition& composition, double unit) {
+  std::vector<AuditedBody> out;
   for (const Species& each : composition.species()) {
     out.push_back({.species = out.size(),
                    .length = each.length / unit,
@@ -70,7 +70,8 @@ Space space_of(const State& state, const Setup& setup, double unit) {
 }
 
 std::vector<Needle> needles_of(const State& state, const Instant& time,
-                               const std::vector<Body>& bodies, double epoch_length, double unit) {
+                               const std::vector<AuditedBody>& bodies, double epoch_length,
+                               double unit) {
   std::vector<Needle> needles;
   needles.reserve(state.size());
   for (std::size_t i = 0; i < state.size(); ++i) {
@@ -131,7 +132,7 @@ Audit::Audit(const State& initial, const Setup& setup)
   if (setup.composition.has_width()) findings_.overlaps.emplace();
   has_collided_.assign(initial.size(), false);
   joints_.resize(initial.size());
-  meetings_.resize(initial.size());
+  last_touches_.resize(initial.size());
   met_.assign(initial.size(), {});
 }
 
@@ -432,7 +433,7 @@ void Audit::follow(const Instant& now, const Happening& happening,
     if (happening.kind == Happening::thermostat) continue;  // which does not count for t_c
     has_collided_[index] = true;
     met_[index] = now;
-    if (happening.kind == Happening::wall) meetings_[index].note(Meeting::wall, now);
+    if (happening.kind == Happening::wall) last_touches_[index].note(LastTouches::wall, now);
   }
   if (judgement) {
     note_meeting(index_of(event.first), index_of(event.second), now, judgement->crowded);

@@ -177,7 +177,7 @@ class Audit {
     Instant time;
   };
   // When a needle has touched others.
-  struct Meeting {
+  struct LastTouches {
     static constexpr Index wall = ~Index{0};   // in place of a partner
     std::optional<Index> last;                 // the latest partner
     std::optional<Instant> with_last, others;  // the latest times with it, and with any other
@@ -240,7 +240,7 @@ class Audit {
   Judgement judge(Index a, Index b, const Instant& now, const Happening& happening) const;
   Answer is_crowded(Index a, Index b, const Instant& now) const;
   bool is_strike(Index a, Index b, const Instant& now) const;
-  Answer may_enter(const RelativeState& before, const std::array<Body, 2>& bodies, int side,
+  Answer may_enter(const RelativeState& before, const std::array<AuditedBody, 2>& bodies, int side,
                    double epsilon) const;
   std::optional<double> threshold() const;
   void note_meeting(Index a, Index b, const Instant& now, bool crowded);
@@ -295,8 +295,8 @@ class Audit {
   double energy() const;
 
   Setup setup_;
-  double unit_;               ///< of lengths: a power of two that no needle is longer than
-  std::vector<Body> bodies_;  ///< by species
+  double unit_;                      ///< of lengths: a power of two that no needle is longer than
+  std::vector<AuditedBody> bodies_;  ///< by species
   Space space_;
   std::vector<std::uint32_t> ids_;
   std::vector<Needle> needles_;
@@ -314,7 +314,7 @@ class Audit {
   std::optional<Checkpoint> resumed_;
   std::vector<std::shared_ptr<Joint>> joints_;  ///< of each needle; null if it flies freely
   std::vector<Cut> cuts_;
-  std::vector<Meeting> meetings_;
+  std::vector<LastTouches> last_touches_;
   std::optional<std::pair<Index, Index>> owed_;  ///< that must collide now, as a contact is cut
   double slack_ = 0;  ///< uncertainty of the end time of the run [epochs]
 };

@@ -128,7 +128,7 @@ Audit::Answer Audit::is_crowded(Index a, Index b, const Instant& now) const {
   Answer out = Answer::no;
   for (const auto& [mine, other] : {std::pair(a, b), std::pair(b, a)}) {
     if (joints_[mine] && joints_[mine]->other(mine) != other) return Answer::yes;
-    const Meeting& meeting = meetings_[mine];
+    const LastTouches& meeting = last_touches_[mine];
     const auto& before = meeting.last == other ? meeting.others : meeting.with_last;
     if (!before) continue;
     const double age = elapsed<double>(*before, now).middle;
@@ -140,15 +140,16 @@ Audit::Answer Audit::is_crowded(Index a, Index b, const Instant& now) const {
 
 // Whether one of the two is in contact, or has touched anything at this instant.
 bool Audit::is_strike(Index a, Index b, const Instant& now) const {
-  return std::ranges::any_of(std::array{a, b},
-                             [&](Index i) { return joints_[i] || meetings_[i].with_last == now; });
+  return std::ranges::any_of(
+      std::array{a, b}, [&](Index i) { return joints_[i] || last_touches_[i].with_last == now; });
 }
 
 // Whether a collision begins a contact, where neither needle has just touched a third one: the
 // needles press on each other, the next bounce would come soon, and the contact lasts for at least
 // twice the time in which all bounces would have ended.
-Audit::Answer Audit::may_enter(const RelativeState& before, const std::array<Body, 2>& bodies,
-                               int side, double epsilon) const {
+Audit::Answer Audit::may_enter(const RelativeState& before,
+                               const std::array<AuditedBody, 2>& bodies, int side,
+                               double epsilon) const {
   if (epsilon == 1) return Answer::no;
   Answer out = Answer::yes;
   const Touch touch(before, bodies);
@@ -181,7 +182,7 @@ Audit::Judgement Audit::judge(Index a, Index b, const Instant& now,
                               const Happening& happening) const {
   const Collision& collision = happening.event;
   const Needle first = present(a, now), second = present(b, now);
-  const std::array<Body, 2> bodies = {first.body, second.body};
+  const std::array<AuditedBody, 2> bodies = {first.body, second.body};
   const double given =
       setup_.composition.restitution(first.body.species, second.body.species).epsilon;
   const auto at = [&](const Needle& needle) {
@@ -226,7 +227,7 @@ Audit::Judgement Audit::judge(Index a, Index b, const Instant& now,
   if (crowded != Answer::yes || is_noise) may_be(given, crowded == Answer::yes);
   if (crowded != Answer::no) {
     const std::optional<double> below = threshold();
-    const int in_a_row = std::max(meetings_[a].in_crowd, meetings_[b].in_crowd);
+    const int in_a_row = std::max(last_touches_[a].in_crowd, last_touches_[b].in_crowd);
     const double needed =
         in_a_row >= most_in_crowd
             ? 1
@@ -242,7 +243,7 @@ Audit::Judgement Audit::judge(Index a, Index b, const Instant& now,
 
 void Audit::note_meeting(Index a, Index b, const Instant& now, bool crowded) {
   for (const auto& [mine, other] : {std::pair(a, b), std::pair(b, a)}) {
-    Meeting& meeting = meetings_[mine];
+    LastTouches& meeting = last_touches_[mine];
     meeting.in_crowd = crowded ? meeting.in_crowd + 1 : 0;
     meeting.note(other, now);
   }
@@ -270,7 +271,7 @@ void Audit::part_all(const Instant& now) {
   for (Index i = 0; i < joints_.size(); ++i) {
     if (!joints_[i]) continue;
     const Joint& joint = *joints_[i];
-    if (setup_.sliding->elastic_strikes) meetings_[i].note(joint.other(i), now);
+    if (setup_.sliding->elastic_strikes) last_touches_[i].note(joint.other(i), now);
     if (joint.first == i && is_chosen(joint.first, joint.second)) {
       continuations_[key_of(joint.first, joint.second)] = {
           nearest_separation(needles_[joint.first], needles_[joint.second]),
@@ -312,7 +313,7 @@ void Audit::go_on_sliding(const Cut& cut) {
   needles_[rest] = renewed;
   needles_[rest].worn = 0;
   const Vector<double> r12 = nearest_separation(needles_[a], needles_[b]);
-  const std::array<Body, 2> bodies = {needles_[a].body, needles_[b].body};
+  const std::array<AuditedBody, 2> bodies = {needles_[a].body, needles_[b].body};
   const Touch touch(relative_state(needles_[a].record, needles_[b].record, r12), bodies);
   const bool may_stay = std::abs(touch.normal_velocity) <= normal_noise(renewed, renewed, touch) &&
                         touch.pressing(side) > -touch.noise;
@@ -414,7 +415,7 @@ double Audit::excess_over_contact(const Joint& joint, const Instant& now,
   const std::array arms = {event.arm_first, event.arm_second};
   for (std::size_t i = 0; i < 2; ++i) {
     const Record& record = needles[i]->record;
-    const Body& body = needles[i]->body;
+    const AuditedBody& body = needles[i]->body;
     const StateAfterCollision& after = event.after[i];
     const double noise = noises[i];
     add(static_cast<double>(touch.arms[i] - arms[i]),

@@ -31,7 +31,7 @@ struct Encounter {
 
 /// Needles can touch when their centres are within the mean of their extents; includes a margin for
 /// rounding. [L]
-inline double reach_of(const Body& first, const Body& second) {
+inline double reach_of(const AuditedBody& first, const AuditedBody& second) {
   return first.extent() / 2 + second.extent() / 2 + 0x1p-20;
 }
 

@@ -11,7 +11,7 @@ GuidedFlight::GuidedFlight(const Guide& first, const Guide& second, const Shift&
                            const Space& space, const Start& start, double duration)
     : PairMotion(first.needle.body, second.needle.body,
                  space.around(first.needle.record.r).around(second.needle.record.r), start),
-      courses_{Course(first, space.gravity), Course(second, space.gravity)},
+      trajectories_{Trajectory(first, space.gravity), Trajectory(second, space.gravity)},
       image_() {
   for (int axis = 0; axis < 3; ++axis) image_[axis] = Extended(shift[axis]) * space.box[axis];
   bound(duration);
@@ -24,7 +24,7 @@ GuidedFlight::GuidedFlight(const Guide& first, const Guide& second, const Shift&
 }
 
 // What gravity does from s = 0 on, it does to both.
-GuidedFlight::Course::Course(const Guide& guide, const Vector<double>& gravity)
+GuidedFlight::Trajectory::Trajectory(const Guide& guide, const Vector<double>& gravity)
     : joint(guide.joint),
       index(guide.index),
       delay(guide.delay),
@@ -36,12 +36,12 @@ void GuidedFlight::bound(double duration) {
   std::array<JointMotion::Most, 2> most;
   speed_ = spin_ = acceleration_ = turned_faster_ = spread_ = 0;
   for (std::size_t i = 0; i < 2; ++i) {
-    Course& course = courses_[i];
-    if (course.joint) {
-      course.joint->follow(course.delay + duration);
-      spread_ += course.joint->spread(course.index, course.delay + duration);
+    Trajectory& trajectory = trajectories_[i];
+    if (trajectory.joint) {
+      trajectory.joint->follow(trajectory.delay + duration);
+      spread_ += trajectory.joint->spread(trajectory.index, trajectory.delay + duration);
     }
-    most[i] = course.most(duration);
+    most[i] = trajectory.most(duration);
     omega_[i] = most[i].turning;
     speed_ += most[i].speed;
     spin_ += most[i].turning;
@@ -51,7 +51,7 @@ void GuidedFlight::bound(double duration) {
   hurry_ = std::sqrt(acceleration_ / size() + turned_faster_);
 }
 
-BodyState GuidedFlight::Course::at(double s) const {
+BodyState GuidedFlight::Trajectory::at(double s) const {
   BodyState out;
   if (joint) {
     out = joint->at(index, delay + s);
@@ -64,7 +64,7 @@ BodyState GuidedFlight::Course::at(double s) const {
   return out;
 }
 
-JointMotion::Most GuidedFlight::Course::most(double duration) const {
+JointMotion::Most GuidedFlight::Trajectory::most(double duration) const {
   JointMotion::Most out;
   if (joint) {
     out = joint->most(index, delay, delay + duration);
@@ -77,7 +77,7 @@ JointMotion::Most GuidedFlight::Course::most(double duration) const {
 }
 
 Sample GuidedFlight::sample(double s) const {
-  const BodyState a = courses_[0].at(s), b = courses_[1].at(s);
+  const BodyState a = trajectories_[0].at(s), b = trajectories_[1].at(s);
   const Vector<Extended> r = a.r - b.r - image_, x = cross(a.u, b.u);
   const Vector<Extended> dx = cross(a.du, b.u) + cross(a.u, b.du);
   Sample out;
@@ -109,7 +109,7 @@ double GuidedFlight::bend(double, double, double distance) const {
 }
 
 // Places are uncertain by what steps of the engine leave over, and by what it loses of centres as
-// it adds up their course, directors by the former.
+// it adds up their trajectory, directors by the former.
 double GuidedFlight::limit(const Sample& sample, double, double half) const {
   const double distance = sample.distance + speed_ * half, noise = contact_noise + spread_;
   return (space_.rounding() + noise * size()) * std::min(1.0, sample.sine + spin_ * half) +

@@ -30,20 +30,20 @@ class GuidedFlight final : public PairMotion {
   double margin_limit(const Sample& sample, double s) const override;
 
  private:
-  struct Course {
+  struct Trajectory {
     JointMotion* joint;
     int index;
     double delay;
     Flight<Extended> flight;
     Vector<Extended> fallen, falls;  ///< what gravity has made of place and velocity until s = 0
 
-    Course(const Guide& guide, const Vector<double>& gravity);
+    Trajectory(const Guide& guide, const Vector<double>& gravity);
     BodyState at(double s) const;
     JointMotion::Most most(double duration) const;
   };
   void bound(double duration);
 
-  std::array<Course, 2> courses_;
+  std::array<Trajectory, 2> trajectories_;
   Vector<Extended> image_;  ///< where the second needle's box is
   double spread_ = 0;       ///< of both, as JointMotion::spread()
   Extended offset_ = 0;     ///< correction of f(0) to its value in the previous flight

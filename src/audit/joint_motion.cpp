@@ -88,7 +88,8 @@ void add_cross(VectorSeries& out, const VectorSeries& a, const VectorSeries& b, 
 
 }  // namespace
 
-JointMotion::JointMotion(const RelativeState& begin, const std::array<Body, 2>& bodies, int side)
+JointMotion::JointMotion(const RelativeState& begin, const std::array<AuditedBody, 2>& bodies,
+                         int side)
     : bodies_(bodies), side_(side), apart_(begin.r), last_(begin) {
   const Extended m1 = bodies[0].mass, m2 = bodies[1].mass, mass = m1 + m2;
   share_ = {m2 / mass, m1 / mass};
@@ -141,7 +142,7 @@ void JointMotion::add_neighbours(double rounding) {
 
 double JointMotion::spread(int needle, double s) const {
   const RelativeState here = state_at(s);
-  const Body& body = bodies_[needle];
+  const AuditedBody& body = bodies_[needle];
   const Extended speeds = Touch(here, bodies_).speeds, share = share_[needle];
   Extended most = 0;
   for (const JointMotion& each : neighbours_) {

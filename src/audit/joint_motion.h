@@ -31,7 +31,7 @@ class JointMotion {
   JointMotion(const Needle& first, const Needle& second, const Vector<double>& r12, int side,
               double rounding = 0);
   /// Of needles of which only the relative motion matters, and no spread.
-  JointMotion(const RelativeState& begin, const std::array<Body, 2>& bodies, int side);
+  JointMotion(const RelativeState& begin, const std::array<AuditedBody, 2>& bodies, int side);
 
   int side() const { return side_; }
   /// Computes the motion until this time after its begin, which what follows needs. False if it
@@ -88,7 +88,7 @@ class JointMotion {
   void add_neighbours(double rounding);
   double noise_of(int room, double s) const;
 
-  std::array<Body, 2> bodies_;
+  std::array<AuditedBody, 2> bodies_;
   int side_;
   std::array<Extended, 2> share_;  ///< of the mass, that of the other needle
   Extended inverse_mass_;          ///< 1/m1 + 1/m2

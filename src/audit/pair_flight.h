@@ -16,7 +16,7 @@ namespace needlework::audit {
 using Shift = std::array<std::int32_t, 3>;
 
 /// What a needle is made of. Lengths of an audit are in a unit that no needle is longer than.
-struct Body {
+struct AuditedBody {
   std::size_t species = 0;  ///< index
   double length = 1, mass = 1, k = 6;
   double diameter = 0;  ///< 0 of thin needles
@@ -32,11 +32,11 @@ struct Body {
 
 /// A needle's record, and its flight prepared for double.
 struct Needle {
-  explicit Needle(const Record& given, const Body& made_of = {})
+  explicit Needle(const Record& given, const AuditedBody& made_of = {})
       : record(given), flight(given), body(made_of) {}
   Record record;
   Flight<Ball<double>> flight;
-  Body body;
+  AuditedBody body;
   /// By so many lengths and radians of flight the record is as uncertain, if the audit has computed
   /// it itself.
   double worn = 0;
@@ -157,7 +157,8 @@ class PairMotion {
   const Start& start() const { return start_; }
 
  protected:
-  PairMotion(const Body& first, const Body& second, const Space& space, const Start& start)
+  PairMotion(const AuditedBody& first, const AuditedBody& second, const Space& space,
+             const Start& start)
       : space_(space), start_(start), half_lengths_{first.length / 2, second.length / 2} {}
 
   Space space_;

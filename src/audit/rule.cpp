@@ -92,7 +92,7 @@ Contact contact_of_needles(const Partner& a, const Partner& b, const Vector3& r,
 /// where the distance grows from them in both directions, or on from the ends. All else follows
 /// from them.
 Contact contact_of_rods(const Partner& a, const Partner& b, const Vector3& r,
-                        const std::array<Body, 2>& bodies, const Collision& collision,
+                        const std::array<AuditedBody, 2>& bodies, const Collision& collision,
                         double geometry, Excess& excess) {
   const std::array arms = {collision.arm_first, collision.arm_second};
   const Vector3 p = r + a.u * Quad(arms[0]) - b.u * Quad(arms[1]);
@@ -126,7 +126,7 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
     r[axis] -= Quad(space.box[axis]) * boxes;
     right_image = right_image && boxes == collision.shift[axis];
   }
-  const std::array<Body, 2> bodies = {first.body, second.body};
+  const std::array<AuditedBody, 2> bodies = {first.body, second.body};
   const bool wide = first.body.diameter > 0;
   constexpr double unit = 0x1p-53;
   const double flexible = 8 * unit * (2 + a.flown + b.flown + (a.turned + b.turned));
@@ -209,7 +209,7 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
     // The velocity itself is rounded, too, however heavy the needle is.
     const double kicked = std::max(1.0, push * magnitude(inverse_mass[i]));
     excess.add(difference(v_after[i], after.velocity), kicked * stiffness * share_after * speed);
-    const Body& body = bodies[i];
+    const AuditedBody& body = bodies[i];
     const double turning = body.length > 0 ? body.k / body.length : 0;
     excess.add(difference(w_after[i], after.angular_velocity),
                (2 / body.extent() + turning) * kicked * stiffness * share_after * speed);

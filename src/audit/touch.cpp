@@ -19,7 +19,7 @@ RelativeState relative_state(const Record& first, const Record& second, const Ve
   return out;
 }
 
-Touch::Touch(const RelativeState& state, const std::array<Body, 2>& bodies) {
+Touch::Touch(const RelativeState& state, const std::array<AuditedBody, 2>& bodies) {
   const auto& [r, v, u1, du1, u2, du2] = state;
   const Vector<Extended> x = cross(u1, u2), dx = cross(du1, u2) + cross(u1, du2);
   const Extended xx = dot(x, x);
@@ -49,7 +49,7 @@ Touch::Touch(const RelativeState& state, const std::array<Body, 2>& bodies) {
 }
 
 // The impulse turns the first director along n, and the second one against it.
-RelativeState after_change(const RelativeState& state, const std::array<Body, 2>& bodies,
+RelativeState after_change(const RelativeState& state, const std::array<AuditedBody, 2>& bodies,
                            const Touch& touch, Extended change) {
   const Vector<Extended> impulse = touch.n * (change / touch.inverse_mass);
   RelativeState out = state;

@@ -21,7 +21,7 @@ RelativeState relative_state(const Record& first, const Record& second, const Ve
 
 /// What follows from it where f = 0.
 struct Touch {
-  Touch(const RelativeState& state, const std::array<Body, 2>& bodies);
+  Touch(const RelativeState& state, const std::array<AuditedBody, 2>& bodies);
 
   Vector<Extended> n;            ///< along u1 x u2
   Extended sine;                 ///< |u1 x u2|
@@ -41,7 +41,7 @@ struct Touch {
 
 /// The state after an impulse along n on the first needle, given as the change of the normal
 /// velocity that it makes.
-RelativeState after_change(const RelativeState& state, const std::array<Body, 2>& bodies,
+RelativeState after_change(const RelativeState& state, const std::array<AuditedBody, 2>& bodies,
                            const Touch& touch, Extended change);
 
 }  // namespace needlework::audit

@@ -132,7 +132,7 @@ double excess_over_flight(const Needle& needle, const Vector<double>& gravity, c
 double excess_over_wall_rule(const Needle& needle, const Vector<double>& gravity, const Wall& wall,
                              const Instant& now, const Collision& hit, const Space& space) {
   const There there(needle, gravity, now);
-  const Body& body = needle.body;
+  const AuditedBody& body = needle.body;
   const Quad n = wall.sign(), arm = hit.arm_first;
   Excess excess;
   add_place(excess, there, vector(hit.after[0].position), vector(hit.after[0].orientation), space);

@@ -25,7 +25,7 @@ Instant later(const Instant& time, double epochs) {
 }  // namespace
 
 std::vector<Temperatures> temperatures_of(std::span<const Needle> needles,
-                                          std::span<const Body> bodies) {
+                                          std::span<const AuditedBody> bodies) {
   struct Squares {
     long double count = 0, v2 = 0, w2 = 0;
   };
@@ -83,8 +83,8 @@ enum class Touches { side, end };
 
 // <sigma> of a contact with these parts of the two. One of the means is elementary; a feature at
 // small arms, where the other needle decides, is spread out by x = t^2 / 2.
-double mean_sigma(const Temperatures& gas_a, const Body& a, Touches part_a,
-                  const Temperatures& gas_b, const Body& b, Touches part_b) {
+double mean_sigma(const Temperatures& gas_a, const AuditedBody& a, Touches part_a,
+                  const Temperatures& gas_b, const AuditedBody& b, Touches part_b) {
   const double flight = gas_a.t_tr / a.mass + gas_b.t_tr / b.mass;
   // T_rot s^2 / I with s = L x.
   const double turn_a = 2 * a.k * gas_a.t_rot / a.mass, turn_b = 2 * b.k * gas_b.t_rot / b.mass;
@@ -100,8 +100,8 @@ double mean_sigma(const Temperatures& gas_a, const Body& a, Touches part_a,
 }
 
 // The mean of sigma over what the axes of two rods exclude, times sqrt(8 / pi) / 2 of its area.
-double excluded(const Temperatures& gas_a, const Body& a, const Temperatures& gas_b,
-                const Body& b) {
+double excluded(const Temperatures& gas_a, const AuditedBody& a, const Temperatures& gas_b,
+                const AuditedBody& b) {
   const auto sigma = [&](Touches part_a, Touches part_b) {
     return mean_sigma(gas_a, a, part_a, gas_b, b, part_b);
   };
@@ -115,10 +115,11 @@ double excluded(const Temperatures& gas_a, const Body& a, const Temperatures& ga
 
 }  // namespace
 
-double mean_free_time(std::span<const Temperatures> gas, std::span<const Body> bodies,
+double mean_free_time(std::span<const Temperatures> gas, std::span<const AuditedBody> bodies,
                       double volume) {
   // Thin needles count as partners of themselves.
-  const bool thin = std::ranges::none_of(bodies, [](const Body& b) { return b.diameter > 0; });
+  const bool thin =
+      std::ranges::none_of(bodies, [](const AuditedBody& b) { return b.diameter > 0; });
   double collisions = 0, count = 0;  // those of a needle with each other, both counted
   for (std::size_t a = 0; a < gas.size(); ++a) {
     count += gas[a].count;
@@ -132,7 +133,7 @@ double mean_free_time(std::span<const Temperatures> gas, std::span<const Body> b
   return volume * count / (std::sqrt(boost::math::constants::pi<double>() / 8) * collisions);
 }
 
-Windows::Windows(std::span<const Needle> needles, std::vector<Body> bodies, double volume,
+Windows::Windows(std::span<const Needle> needles, std::vector<AuditedBody> bodies, double volume,
                  double between_kicks)
     : bodies_(std::move(bodies)), volume_(volume), between_kicks_(between_kicks) {
   open({}, needles);

@@ -18,7 +18,7 @@ struct Temperatures {
 };
 /// By species; 0 of one without needles.
 std::vector<Temperatures> temperatures_of(std::span<const Needle> needles,
-                                          std::span<const Body> bodies);
+                                          std::span<const AuditedBody> bodies);
 /// Of all needles.
 double energy_of(std::span<const Needle> needles);
 
@@ -29,7 +29,7 @@ double energy_of(std::span<const Needle> needles);
 /// than these sides: their ends add 4 D L to L_a L_b for each of the two, and 8 D^2, where only the
 /// part (L / 2)^2 (1 - mu^2) of the square of an arm counts, mu uniform. In a mixture, and among
 /// rods, a needle is no partner of its own, as the engine counts. Infinite if nothing moves.
-double mean_free_time(std::span<const Temperatures> gas, std::span<const Body> bodies,
+double mean_free_time(std::span<const Temperatures> gas, std::span<const AuditedBody> bodies,
                       double volume);
 
 /// Follows the ends of windows. A window begins with the run, at the end of the one before or with
@@ -41,7 +41,7 @@ class Windows {
   static constexpr double tolerance = 4e-6;
 
   /// Opens the first window at time 0. `between_kicks` is their interval, or infinite.
-  Windows(std::span<const Needle> needles, std::vector<Body> bodies, double volume,
+  Windows(std::span<const Needle> needles, std::vector<AuditedBody> bodies, double volume,
           double between_kicks);
 
   /// Opens windows until the present one ends after `now`. `needles_at(time)` gives the needles as
@@ -67,7 +67,7 @@ class Windows {
  private:
   void open(const Instant& now, std::span<const Needle> needles);
 
-  std::vector<Body> bodies_;
+  std::vector<AuditedBody> bodies_;
   double volume_, between_kicks_;
   double mean_free_time_ = 0;
   Instant end_;

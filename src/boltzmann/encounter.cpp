@@ -66,7 +66,7 @@ void Encounter::collide(Touching& pair, const Restitution& rule) const {
   contact.arm_second = pair.arm[1];
   const Vec3d v = a.v - b.v + cross(a.w, a.u) * pair.arm[0] - cross(b.w, b.u) * pair.arm[1];
   const int side = dot(v, contact.normal) > 0 ? -1 : 1;
-  const Meeting meeting{a.v, a.w, b.v, b.w, bodies_[0], bodies_[1], contact, side};
+  const CollidingPair meeting{a.v, a.w, b.v, b.w, bodies_[0], bodies_[1], contact, side};
   const Impact impact = rule.is_rough() ? needlework::collide<Surface::rough>(meeting, rule)
                                         : needlework::collide<Surface::smooth>(meeting, rule);
   a.v = impact.v_first, a.w = project_out(impact.w_first, a.u);
@@ -80,8 +80,8 @@ bool Encounter::is_first(const Touching& pair) const {
   return contact && std::isinf(contact->time);
 }
 
-Course Encounter::follow(Touching& pair) const {
-  Course out;
+EncounterResult Encounter::follow(Touching& pair) const {
+  EncounterResult out;
   for (bool inelastic = true;;) {
     collide(pair, inelastic ? rule_ : Restitution{});
     ++out.collisions;

@@ -24,7 +24,7 @@ Touching touching(const std::array<Vec3d, 2>& v, const std::array<Vec3d, 2>& u,
                   const std::array<Vec3d, 2>& w, const std::array<double, 2>& arm);
 
 /// How an encounter went.
-struct Course {
+struct EncounterResult {
   std::uint64_t collisions = 0, tc_collisions = 0;
   bool finished = true;  ///< false if it was given up
 };
@@ -40,7 +40,7 @@ class Encounter {
   /// Whether the needles, which approach, have not collided before: flying back they do not meet.
   bool is_first(const Touching& pair) const;
   /// From the first collision to the last one.
-  Course follow(Touching& pair) const;
+  EncounterResult follow(Touching& pair) const;
 
  private:
   // The next contact of needles that touch and part, flying on (1) or back (-1). Without a contact

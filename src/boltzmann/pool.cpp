@@ -141,11 +141,11 @@ void Pool::meet(Partners& partners, Needle& a, Needle& b, const Touching& touchi
   const Encounter encounter({kind_a.body, kind_b.body}, partners.rule,
                             contact_time_ / std::sqrt(t_tr_));
   Touching pair = touching;
-  Course course{.collisions = 1};
+  EncounterResult result{.collisions = 1};
   if (pairs_ == Pairs::single) {
     encounter.collide(pair);
   } else if (encounter.is_first(pair)) {
-    course = encounter.follow(pair);
+    result = encounter.follow(pair);
   } else {
     ++met_before_;
     return;
@@ -155,12 +155,12 @@ void Pool::meet(Partners& partners, Needle& a, Needle& b, const Touching& touchi
   a.u = pair.needle[0].u, b.u = pair.needle[1].u;
   set_fastest(a, kind_a);
   set_fastest(b, kind_b);
-  partners.collisions += course.collisions;
-  kind_a.collisions += course.collisions;
-  kind_b.collisions += course.collisions;
-  tc_collisions_ += course.tc_collisions;
-  unfinished_ += !course.finished;
-  ++encounters_of_[std::min<std::size_t>(course.collisions, longest_counted) - 1];
+  partners.collisions += result.collisions;
+  kind_a.collisions += result.collisions;
+  kind_b.collisions += result.collisions;
+  tc_collisions_ += result.tc_collisions;
+  unfinished_ += !result.finished;
+  ++encounters_of_[std::min<std::size_t>(result.collisions, longest_counted) - 1];
   if (until_looked_-- == 0) find_fastest();
 }
 

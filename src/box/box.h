@@ -11,6 +11,7 @@
 
 #include "kernels/double_double.h"
 #include "needlework/state.h"
+#include "src/box/vector.h"
 
 namespace needlework {
 
@@ -52,8 +53,6 @@ struct Wrapped {
 /// that is not periodic there are no images, and centres may be beyond the edges.
 class Box {
  public:
-  using Vector = std::array<double, 3>;
-
   Box() = default;
   Box(const Vector& edges, const std::array<bool, 3>& periodic = {true, true, true})
       : edges_(edges), periodic_(periodic) {}

@@ -39,29 +39,29 @@ Json stats_of(const Counters& counters) {
 
 }  // namespace
 
-double Report::collision_rate() const { return ratio(collisions_per_needle(), course.last.time); }
+double Report::collision_rate() const { return ratio(collisions_per_needle(), result.last.time); }
 
 double Report::collision_rate_error() const {
-  return 2 * course.system_rate.standard_error / static_cast<double>(scene.needles.count);
+  return 2 * result.system_rate.standard_error / static_cast<double>(scene.needles.count);
 }
 
 double Report::collision_rate_exact() const {
-  if (!course.theory_holds) return undefined;
-  return runs::equilibrium_rate(scene, course.initial.energy);
+  if (!result.theory_holds) return undefined;
+  return runs::equilibrium_rate(scene, result.initial.energy);
 }
 
 double Report::collisions_per_needle() const {
-  return ratio(2 * static_cast<double>(course.last.collisions),
+  return ratio(2 * static_cast<double>(result.last.collisions),
                static_cast<double>(scene.needles.count));
 }
 
 double Report::us_per_collision() const {
-  return ratio(1e6 * course.loop.cpu(), static_cast<double>(course.collisions));
+  return ratio(1e6 * result.loop.cpu(), static_cast<double>(result.collisions));
 }
 
 std::vector<double> Report::pair_rates_exact() const {
-  if (!scene.composition().is_mixture() || !course.theory_holds) return {};
-  return runs::equilibrium_rates_by_pair(scene, course.initial.energy);
+  if (!scene.composition().is_mixture() || !result.theory_holds) return {};
+  return runs::equilibrium_rates_by_pair(scene, result.initial.energy);
 }
 
 MixtureTheory::MixtureTheory(const Composition& composition, double volume,
@@ -94,7 +94,7 @@ std::optional<std::vector<theory::Temperatures>> Report::species_theory_at(
   // Theory of rods holds at low density alone, which would look like a deviation of the run.
   if (!runs::has_mixture_theory(composition) || composition.has_width() ||
       !scene.initial.file.empty() || acts_on_single_needles(scene) ||
-      !(course.initial.energy > 0) || !course.theory_holds) {
+      !(result.initial.energy > 0) || !result.theory_holds) {
     return std::nullopt;
   }
   if (!mixture_theory) {
@@ -109,7 +109,7 @@ double Report::initial_collision_rate() const {
   const Composition composition = scene.composition();
   if (composition.is_needle_gas()) {
     return theory::collision_rate(runs::theory_density_of(scene),
-                                  {course.initial.t_tr, course.initial.t_rot}, composition[0].k);
+                                  {result.initial.t_tr, result.initial.t_rot}, composition[0].k);
   }
   return runs::initial_collision_rate({.scene = scene, .initial = {}});
 }
@@ -119,25 +119,25 @@ std::optional<theory::Temperatures> Report::theory_at(const Totals& sample) cons
     return theory::mean_of_species(scene.composition(), *each);
   }
   if (!scene.composition().is_needle_gas() || !scene.initial.file.empty() ||
-      acts_on_single_needles(scene) || !(course.initial.energy > 0) || !course.theory_holds) {
+      acts_on_single_needles(scene) || !(result.initial.energy > 0) || !result.theory_holds) {
     return std::nullopt;
   }
   const Composition composition = scene.composition();
   const Restitution& rule = composition.restitution(0, 0);
   const theory::Gas gas{composition[0].k, rule.epsilon, rule.beta};
   const double tau = theory_time_scale(runs::theory_density_of(scene)) * sample.time;
-  return theory::cooling_curve(gas, {course.initial.t_tr, course.initial.t_rot}, std::span(&tau, 1))
+  return theory::cooling_curve(gas, {result.initial.t_tr, result.initial.t_rot}, std::span(&tau, 1))
       .front();
 }
 
-std::string stop_name(const runs::Course& course) {
-  if (course.failure) return "invalid_state";
-  return name_of(course.stop);
+std::string stop_name(const runs::RunResult& result) {
+  if (result.failure) return "invalid_state";
+  return name_of(result.stop);
 }
 
 std::string json_of(const Report& report) {
-  const Totals& last = report.course.last;
-  const runs::Stopwatch& loop = report.course.loop;
+  const Totals& last = report.result.last;
+  const runs::Stopwatch& loop = report.result.loop;
   const Scene& scene = report.scene;
   const Simulation& simulation = report.simulation;
   Json json;
@@ -150,7 +150,7 @@ std::string json_of(const Report& report) {
   json["collision_rate_error"] = number(report.collision_rate_error());
   json["collision_rate_exact"] = number(report.collision_rate_exact());
   json["energy"] = number(last.energy);
-  json["energy_initial"] = number(report.course.initial.energy);
+  json["energy_initial"] = number(report.result.initial.energy);
   json["t_tr"] = number(last.t_tr);
   json["t_rot"] = number(last.t_rot);
   json["momentum"] = {number(last.momentum[0]), number(last.momentum[1]), number(last.momentum[2])};
@@ -178,7 +178,7 @@ std::string json_of(const Report& report) {
   json["cpu_s"] = loop.cpu();
   json["total_s"] = runs::seconds_since_launch();
   json["collisions_per_s"] =
-      number(ratio(static_cast<double>(report.course.collisions), loop.wall()));
+      number(ratio(static_cast<double>(report.result.collisions), loop.wall()));
   json["us_per_collision"] = number(report.us_per_collision());
   json["peak_rss_bytes"] = runs::peak_memory();
   json["threads"] = scene.engine.threads.value_or(1);
@@ -191,7 +191,7 @@ std::string json_of(const Report& report) {
   json["trajectory_hash"] = simulation.trajectory_hash();
   json["seed"] = scene.needles.seed;
   json["version"] = NEEDLEWORK_VERSION;
-  json["stop"] = stop_name(report.course);
+  json["stop"] = stop_name(report.result);
   json["title"] = scene.title;
   if (!simulation.placement().empty()) json["placement"] = simulation.placement();
   json["file"] = scene.output.file.empty() ? Json(nullptr) : Json(scene.output.file);

@@ -36,7 +36,7 @@ class MixtureTheory {
 struct Report {
   const Scene& scene;
   const Simulation& simulation;
-  const runs::Course& course;
+  const runs::RunResult& result;
   double setup_s = 0;
 
   /// Per needle and unit time, over the run; NaN if no time has passed.
@@ -63,7 +63,7 @@ struct Report {
 };
 
 /// One word for why the run stopped.
-std::string stop_name(const runs::Course& course);
+std::string stop_name(const runs::RunResult& result);
 
 /// The object that `run --json` prints.
 std::string json_of(const Report& report);

@@ -47,18 +47,18 @@ struct Ending {
   std::string message = {};
 };
 
-Ending ending_of(const runs::Course& course, const Scene& scene) {
-  if (course.failure) {
+Ending ending_of(const runs::RunResult& result, const Scene& scene) {
+  if (result.failure) {
     const std::string replay =
-        course.bundle.empty()
+        result.bundle.empty()
             ? ""
-            : fmt::format("; needlework replay {} shows it again", shell_word(course.bundle));
-    return {invalid_state, fmt::format("{} ({}{})", *course.failure, where_saved(scene), replay)};
+            : fmt::format("; needlework replay {} shows it again", shell_word(result.bundle));
+    return {invalid_state, fmt::format("{} ({}{})", *result.failure, where_saved(scene), replay)};
   }
-  if (course.stop == Stop::interrupted || course.stop == Stop::wall_time) {
+  if (result.stop == Stop::interrupted || result.stop == Stop::wall_time) {
     return {stopped, fmt::format("stopped by {} at time {:.6g} after {} collisions ({})",
-                                 course.stop == Stop::wall_time ? "until.wall_s" : "a signal",
-                                 course.last.time, course.last.collisions,
+                                 result.stop == Stop::wall_time ? "until.wall_s" : "a signal",
+                                 result.last.time, result.last.collisions,
                                  where_saved(scene) + how_to_continue(scene))};
   }
   return {};
@@ -136,18 +136,18 @@ int drive(runs::PreparedRun& prepared, SignalGuard& signals, const Printing& pri
   runs::RunMonitor& monitor = log ? static_cast<runs::RunMonitor&>(with_log) : *shown;
   const double time = prepared.simulation().time();
   const std::uint64_t collisions = prepared.simulation().collisions();
-  const runs::Course course = prepared.drive(monitor, runs::seconds_since_launch());
+  const runs::RunResult result = prepared.drive(monitor, runs::seconds_since_launch());
 
-  const Report report{prepared.scene(), prepared.simulation(), course,
-                      prepared.setup_s() + course.setup.wall()};
+  const Report report{prepared.scene(), prepared.simulation(), result,
+                      prepared.setup_s() + result.setup.wall()};
   if (printing.json) {
     fmt::print("{}\n", json_of(report));
   } else if (!printing.quiet) {
     fmt::print("{}", summary_of(report));
   }
-  const Ending ending = ending_of(course, prepared.scene());
+  const Ending ending = ending_of(result, prepared.scene());
   if (!ending.message.empty()) print_error(ending.message);
-  if (course.stop == Stop::nothing_can_happen) {
+  if (result.stop == Stop::nothing_can_happen) {
     const std::string why = fmt::format("the run has ended early, as nothing collides: {}",
                                         prepared.simulation().why_no_collision());
     print_warning(why);
@@ -156,7 +156,7 @@ int drive(runs::PreparedRun& prepared, SignalGuard& signals, const Printing& pri
     print_warning(nothing_to_do);
     log.warning(nothing_to_do);
   }
-  log.end(prepared, course, ending.exit_code, ending.message);
+  log.end(prepared, result, ending.exit_code, ending.message);
   return ending.exit_code;
 }
 

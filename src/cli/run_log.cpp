@@ -100,19 +100,19 @@ void RunLog::checkpoint(double time, std::uint64_t collisions, double seconds) {
   file_->write("checkpoint", {{"time", time}, {"collisions", collisions}, {"took_s", seconds}});
 }
 
-void RunLog::end(const runs::PreparedRun& run, const runs::Course& course, int exit_code,
+void RunLog::end(const runs::PreparedRun& run, const runs::RunResult& result, int exit_code,
                  const std::string& message) {
   if (!file_) return;
-  file_->write("end", {{"reason", stop_name(course)},
+  file_->write("end", {{"reason", stop_name(result)},
                        {"exit_code", exit_code},
                        {"message", or_null(message)},
-                       {"bundle", or_null(course.bundle)},
-                       {"time", course.last.time},
-                       {"collisions", course.last.collisions},
-                       {"energy", number(course.last.energy)},
-                       {"energy_ratio", number(energy_ratio(course.last, course.initial))},
+                       {"bundle", or_null(result.bundle)},
+                       {"time", result.last.time},
+                       {"collisions", result.last.collisions},
+                       {"energy", number(result.last.energy)},
+                       {"energy_ratio", number(energy_ratio(result.last, result.initial))},
                        {"trajectory_hash", run.simulation().trajectory_hash()},
-                       {"wall_s", course.loop.wall()}});
+                       {"wall_s", result.loop.wall()}});
 }
 
 void RunLog::end(const runs::Failure& failure) {

@@ -30,7 +30,7 @@ class RunLog {
   void progress(const runs::Progress& progress);
   void checkpoint(double time, std::uint64_t collisions, double seconds);
   /// The message is the one on stderr, or empty.
-  void end(const runs::PreparedRun& run, const runs::Course& course, int exit_code,
+  void end(const runs::PreparedRun& run, const runs::RunResult& result, int exit_code,
            const std::string& message);
   /// Of a run that was ended by an error.
   void end(const runs::Failure& failure);

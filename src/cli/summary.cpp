@@ -31,9 +31,9 @@ std::string per_cent(double share) {
   return value > 0 && value < 0.01 ? "less than 0.01 %" : fmt::format("{:.3g} %", value);
 }
 
-std::string reason(const runs::Course& course) {
-  if (course.failure) return "stopped in an invalid state";
-  switch (course.stop) {
+std::string reason(const runs::RunResult& result) {
+  if (result.failure) return "stopped in an invalid state";
+  switch (result.stop) {
     case Stop::time:
       return "ran to its end time";
     case Stop::collisions:
@@ -51,10 +51,10 @@ std::string reason(const runs::Course& course) {
 }
 
 // The sample nearest to a tenth of the end's time, for the slope over the last decade.
-const Totals* decade_before(const runs::Course& course) {
+const Totals* decade_before(const runs::RunResult& result) {
   const Totals* found = nullptr;
-  for (const Totals& sample : course.samples) {
-    if (sample.time > 0 && sample.time <= 0.101 * course.last.time) found = &sample;
+  for (const Totals& sample : result.samples) {
+    if (sample.time > 0 && sample.time <= 0.101 * result.last.time) found = &sample;
   }
   return found;
 }
@@ -64,12 +64,12 @@ double slope(double energy_before, double energy_after, double time_before, doub
 }
 
 std::string energy_lines(const Report& report) {
-  const Totals& first = report.course.initial;
-  const Totals& last = report.course.last;
+  const Totals& first = report.result.initial;
+  const Totals& last = report.result.last;
   std::string text;
   const bool cools = last.energy < 0.999 * first.energy;
   // In the order of times, in which theory follows its curve once.
-  const Totals* before = cools ? decade_before(report.course) : nullptr;
+  const Totals* before = cools ? decade_before(report.result) : nullptr;
   const auto theory_before = before ? report.theory_at(*before) : std::nullopt;
   const auto theory = report.theory_at(last);
   if (cools) {
@@ -122,7 +122,7 @@ std::string rest_line(std::size_t all, std::size_t shown, const char* order, con
 std::string temperature_lines(const Report& report) {
   const Composition& composition = report.simulation.composition();
   const auto totals = report.simulation.species_totals();
-  const auto theory = report.species_theory_at(report.course.last);
+  const auto theory = report.species_theory_at(report.result.last);
   std::vector<std::uint64_t> counts;
   counts.reserve(totals.size());
   for (const SpeciesTotals& each : totals) counts.push_back(each.count);
@@ -145,7 +145,7 @@ std::string pair_lines(const Report& report) {
   const Composition& composition = report.simulation.composition();
   const auto collisions = report.simulation.collisions_by_pair();
   const std::vector<double> exact = report.pair_rates_exact();
-  const double time = report.course.last.time;
+  const double time = report.result.last.time;
   std::vector<std::string> names;  // in the order of the indices of pairs
   for (std::size_t a = 0; a < composition.size(); ++a) {
     for (std::size_t b = a; b < composition.size(); ++b) {
@@ -183,7 +183,7 @@ std::string numbers_text(const Sums& sums) {
 }
 
 std::string rod_line(const Report& report) {
-  if (!report.simulation.composition().has_width() || !(report.course.last.time > 0)) return {};
+  if (!report.simulation.composition().has_width() || !(report.result.last.time > 0)) return {};
   const observe::RodTotals rods = runs::rod_totals(report.scene, report.simulation);
   return line("rods", "{}; pressure: {}", numbers_text(rods), rods.pressure_meaning);
 }
@@ -220,9 +220,9 @@ std::string budget_line(const Report& report) {
 }
 
 // The sample next to a time, if there is one within a twentieth of it.
-const Totals* sample_at(const runs::Course& course, double time) {
+const Totals* sample_at(const runs::RunResult& result, double time) {
   const Totals* found = nullptr;
-  for (const Totals& sample : course.samples) {
+  for (const Totals& sample : result.samples) {
     const double off = std::abs(sample.time - time);
     if (off < 0.05 * time && !(found && std::abs(found->time - time) < off)) found = &sample;
   }
@@ -233,14 +233,14 @@ const Totals* sample_at(const runs::Course& course, double time) {
 // second or third decade of a long run.
 std::string curve_lines(const Report& report) {
   constexpr int most_rows = 8;
-  const Totals& first = report.course.initial;
+  const Totals& first = report.result.initial;
   const double mean_free_time = 1 / report.initial_collision_rate();
   const double begin = std::ceil(std::log10(0.5 * mean_free_time));
-  const double end = std::floor(std::log10(report.course.last.time));
+  const double end = std::floor(std::log10(report.result.last.time));
   const double stride = std::max(1.0, std::ceil((end - begin + 1) / most_rows));
   std::string rows;
   for (double decade = begin; decade <= end; decade += stride) {
-    const Totals* sample = sample_at(report.course, std::pow(10, decade));
+    const Totals* sample = sample_at(report.result, std::pow(10, decade));
     const auto theory = sample ? report.theory_at(*sample) : std::nullopt;
     if (!theory) continue;
     rows += fmt::format("{:16}{:<10.4g}{:<12.4g}{:<12.4g}{:<12.4g}{:.4g}\n", "", sample->time,
@@ -276,7 +276,7 @@ std::string thread_line(const Report& report) {
     return line("threads", "{}; one did all: too few needles, or collisions, to share", text);
   }
   const auto events = static_cast<double>(counters.events);
-  const double time = threads * report.course.loop.wall();
+  const double time = threads * report.result.loop.wall();
   return line(
       "threads",
       "{}: {:.3g} events between stalls, blocked {} of the time; {:.2g} looks at others and {:.2g} "
@@ -291,15 +291,15 @@ std::string thread_line(const Report& report) {
 
 std::string summary_of(const Report& report) {
   const Scene& scene = report.scene;
-  const Totals& last = report.course.last;
+  const Totals& last = report.result.last;
   const auto& box = scene.needles.box;
   std::string text = scene.title.empty() ? "" : scene.title + "\n";
   text += line("gas", "{} needles in a box of {:g} x {:g} x {:g}, {}", scene.needles.count, box[0],
                box[1], box[2], report.simulation.effects());
   if (const std::string placement = report.simulation.placement(); !placement.empty())
     text += line("start", "{}", placement);
-  text += line("end", "{}: time {:.6g}", reason(report.course), last.time);
-  if (report.course.initial.energy > 0) text += energy_lines(report);
+  text += line("end", "{}: time {:.6g}", reason(report.result), last.time);
+  if (report.result.initial.energy > 0) text += energy_lines(report);
   if (report.simulation.composition().is_mixture())
     text += temperature_lines(report) + pair_lines(report);
   if (runs::starts_in_equilibrium(scene) && last.time > 0) text += rate_line(report);
@@ -320,8 +320,8 @@ std::string summary_of(const Report& report) {
   text += wall_lines(report);
   text += budget_line(report);
   const int threads = scene.engine.threads.value_or(1);
-  text += line("took", "{} of wall time", runs::duration_text(report.course.loop.wall()));
-  if (report.course.collisions > 0) {
+  text += line("took", "{} of wall time", runs::duration_text(report.result.loop.wall()));
+  if (report.result.collisions > 0) {
     text.pop_back();
     text += fmt::format("; {:.3g} us per collision of CPU time{}\n", report.us_per_collision(),
                         threads > 1 ? ", all threads together" : "");

@@ -25,12 +25,12 @@ class EventLoop : public Loop {
   /// replaced at the present time.
   EventLoop(Run& run, S search, std::unique_ptr<AnyCalendar> calendar, ReplacedRecords replaced);
 
-  std::optional<Stop> prepare(const Limits* limits) final;
+  std::optional<Stop> prepare(const StopConditions* limits) final;
   void keep_in_order() final {
     if (run_.is_out_of_order()) sort_storage();
   }
   void begin_again(ReplacedRecords&& replaced) override;
-  std::optional<Stop> advance(const Limits& limits) override;
+  std::optional<Stop> advance(const StopConditions& limits) override;
   const char* search_name() const override { return search_.name(); }
   const char* calendar_name() const override { return calendar_->name(); }
 
@@ -41,10 +41,10 @@ class EventLoop : public Loop {
   virtual std::size_t search_from(std::size_t first);
   /// If the window ends before `next`, the time of the next event, opens the next window and
   /// returns true.
-  bool pass_window(Time next, const Limits& limits);
+  bool pass_window(Time next, const StopConditions& limits);
   /// Processes events before `end` until a limit is met. Returns nothing when it gets to `end` or
   /// to a pause without meeting one.
-  std::optional<Stop> run_alone(const Limits& limits, Time end);
+  std::optional<Stop> run_alone(const StopConditions& limits, Time end);
   virtual void sort_storage();
 
   Run& run_;
@@ -99,7 +99,7 @@ void EventLoop<S, M>::begin_again(ReplacedRecords&& replaced) {
 }
 
 template <Search S, Model M>
-std::optional<Stop> EventLoop<S, M>::prepare(const Limits* limits) {
+std::optional<Stop> EventLoop<S, M>::prepare(const StopConditions* limits) {
   if (is_prepared_) return std::nullopt;
   const std::size_t count = run_.gas.size();
   const auto called_off = [&]() -> std::optional<Stop> {
@@ -140,13 +140,13 @@ void EventLoop<S, M>::first_search(Needle i) {
 }
 
 template <Search S, Model M>
-std::optional<Stop> EventLoop<S, M>::advance(const Limits& limits) {
+std::optional<Stop> EventLoop<S, M>::advance(const StopConditions& limits) {
   if (const auto stop = prepare(&limits)) return stop;
   return run_alone(limits, Time::never());
 }
 
 template <Search S, Model M>
-std::optional<Stop> EventLoop<S, M>::run_alone(const Limits& limits, Time end) {
+std::optional<Stop> EventLoop<S, M>::run_alone(const StopConditions& limits, Time end) {
   for (;;) {
     if (const auto stop = limits.reached(run_)) return stop;
     // Looking at the clock costs more than looking at a flag.
@@ -174,7 +174,7 @@ std::optional<Stop> EventLoop<S, M>::run_alone(const Limits& limits, Time end) {
 }
 
 template <Search S, Model M>
-bool EventLoop<S, M>::pass_window(Time next, const Limits& limits) {
+bool EventLoop<S, M>::pass_window(Time next, const StopConditions& limits) {
   const Time until = std::min(next, limits.time);
   if (run_.windows.end() > until || until == Time::never()) return false;
   run_.now = run_.windows.end();

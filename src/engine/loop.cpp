@@ -10,7 +10,7 @@
 
 namespace needlework {
 
-Limits::Limits(const Run& run, const Scene::Until& until)
+StopConditions::StopConditions(const Run& run, const Scene::Until& until)
     : time(until.time ? run.gas.clock.add({}, std::max(0.0, *until.time)) : Time::never()),
       collisions(until.collisions_per_needle
                      ? *until.collisions_per_needle * static_cast<double>(run.gas.size()) / 2
@@ -43,7 +43,7 @@ Limits::Limits(const Run& run, const Scene::Until& until)
   }
 }
 
-std::optional<Stop> Limits::reached_without_events(Run& run) const {
+std::optional<Stop> StopConditions::reached_without_events(Run& run) const {
   if (time < run.now) return Stop::time;
   if (time == Time::never()) {
     if (run.collisionless()) return Stop::nothing_can_happen;
@@ -57,7 +57,7 @@ std::optional<Stop> Limits::reached_without_events(Run& run) const {
   return Stop::time;
 }
 
-std::optional<Stop> Limits::called_off(const Run& run) const {
+std::optional<Stop> StopConditions::called_off(const Run& run) const {
   if (run.interrupted) return Stop::interrupted;
   if (wall != wall.max() && std::chrono::steady_clock::now() >= wall) return Stop::wall_time;
   if (time == Time::never() && run.is_quiet()) return Stop::nothing_can_happen;

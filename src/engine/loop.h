@@ -11,9 +11,9 @@
 namespace needlework {
 
 /// The limits at which a call of Simulation::advance() stops.
-struct Limits {
+struct StopConditions {
   /// Throws InputError if no condition is given.
-  Limits(const Run& run, const Scene::Until& until);
+  StopConditions(const Run& run, const Scene::Until& until);
 
   /// Handles a run that is already at its end, or in which nothing can happen, without processing
   /// events. The time of the latter becomes the limit of time, if there is one.
@@ -43,7 +43,7 @@ class Loop {
   /// Lets all needles search their first events, and returns nothing when they have. Where the
   /// limits call the run off, returns why; the next call, or advance(), then continues. Without
   /// limits nothing stops it.
-  virtual std::optional<Stop> prepare(const Limits* limits) = 0;
+  virtual std::optional<Stop> prepare(const StopConditions* limits) = 0;
   /// Sorts the storage if so many needles have moved that it should be.
   virtual void keep_in_order() = 0;
   /// Begins again with records that have all been replaced at the present time, of which `replaced`
@@ -52,7 +52,7 @@ class Loop {
   /// Processes events until a limit is met, or until the pause, when it returns nothing. Throws
   /// InvalidStateError when the run cannot continue correctly; the state then stays as it was
   /// before the event that failed, unless the error is an UnfinishedEventError.
-  virtual std::optional<Stop> advance(const Limits& limits) = 0;
+  virtual std::optional<Stop> advance(const StopConditions& limits) = 0;
   virtual const char* search_name() const = 0;
   virtual const char* calendar_name() const = 0;
 };

@@ -108,7 +108,7 @@ class ParallelLoop final : public EventLoop<S, M> {
   ParallelLoop(Run& run, S search, ReplacedRecords replaced, int threads,
                const ParallelTuning& tuning);
 
-  std::optional<Stop> advance(const Limits& limits) override;
+  std::optional<Stop> advance(const StopConditions& limits) override;
   void begin_again(ReplacedRecords&& replaced) override;
 
  private:
@@ -123,7 +123,7 @@ class ParallelLoop final : public EventLoop<S, M> {
     Base::sort_storage();
     divide();
   }
-  void run_together(const Limits& limits, Time end);
+  void run_together(const StopConditions& limits, Time end);
   void roll_back();
   void report();
 
@@ -257,7 +257,7 @@ void ParallelLoop<S, M>::divide() {
 }
 
 template <Search S, Model M>
-std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
+std::optional<Stop> ParallelLoop<S, M>::advance(const StopConditions& limits) {
   if (const auto stop = this->prepare(&limits)) return stop;
   const Time last =
       limits.time == Time::never()
@@ -312,7 +312,7 @@ std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
 // or if one thread would have stopped earlier, rolls back the phase and leaves it to one thread. If
 // there are many more collisions than expected, rolls it back and makes the next phases shorter.
 template <Search S, Model M>
-void ParallelLoop<S, M>::run_together(const Limits& limits, Time end) {
+void ParallelLoop<S, M>::run_together(const StopConditions& limits, Time end) {
   // The previous phase may have been long ago, so its largest speed is rescaled.
   phase_.begin(fastest_to_thermal_ * thermal_speed(), plan_.most_of_a_thread());
   for (auto& thread : threads_) thread.begin();

@@ -373,7 +373,7 @@ std::optional<Collisionless> Run::collisionless() const {
   if (!sources.empty() || kicks) return std::nullopt;
   const auto reason = needlework::collisionless(gas.size(), [&](std::size_t i) {
     const kernels::Flight& flight = gas.records[i].flight;
-    return Heading{flight.v, flight.u, flight.w};
+    return kernels::BodyState{flight.r, flight.v, flight.u, flight.w};
   });
   // Of width, only those touch nothing that have no motion relative to each other.
   if (effects.width && gas.size() > 1 && reason != Collisionless::alike) return std::nullopt;

@@ -12,8 +12,8 @@
 #include "needlework/error.h"
 #include "needlework/initial_state.h"
 #include "src/calendar/choice.h"
+#include "src/engine/drawn_state.h"
 #include "src/engine/initial_gas.h"
-#include "src/engine/initial_state.h"
 #include "src/engine/make_loop.h"
 #include "src/engine/present_state.h"
 #include "src/engine/rods_apart.h"
@@ -192,13 +192,13 @@ struct Simulation::Implementation {
   }
 
   std::optional<Stop> prepare(const Scene::Until& until) {
-    const auto stop = prepare(Limits(run, until));
+    const auto stop = prepare(StopConditions(run, until));
     if (!stop) return std::nullopt;
     return run.interrupted.exchange(false) ? Stop::interrupted : stop;
   }
 
   Stop advance(const Scene::Until& until) {
-    const Stop stop = advance(Limits(run, until));
+    const Stop stop = advance(StopConditions(run, until));
 #ifndef NDEBUG
     require_rods_apart(run.gas, run.now, isa,
                        std::max(overlap_at_start, explained_overlap(run.gas, run.now)));
@@ -208,7 +208,7 @@ struct Simulation::Implementation {
   }
 
   // Whether it ends without an event, and why.
-  std::optional<Stop> prepare(const Limits& limits) {
+  std::optional<Stop> prepare(const StopConditions& limits) {
     // On which sides needles are that touch is to be known before time passes without events.
     if (limits.time != Time::never() && run.nothing_can_happen()) {
       if (!loop) begin_loop();
@@ -226,13 +226,13 @@ struct Simulation::Implementation {
     if (run.listeners.kick) run.listeners.kick();
   }
 
-  Stop advance(Limits limits) {
+  Stop advance(StopConditions limits) {
     if (const auto stop = prepare(limits)) return *stop;
     for (;;) {
       if (sizing) limits.pause = sizing->next();
       // What happens at the instant of a kick happens before it.
       const Time kicked = run.next_kick();
-      Limits before = limits;
+      StopConditions before = limits;
       before.time = std::min(limits.time, kicked);
       const auto stop = loop->advance(before);
       if (stop == Stop::time && kicked <= limits.time) {
@@ -287,8 +287,10 @@ std::string why_no_collision(const Scene& scene, const State& initial) {
   }
   if (count > 1 && scene.composition().has_width()) return "";
   const auto reason = collisionless(count, [&](std::size_t i) {
-    return Heading{vector_of(initial.velocity[i]), vector_of(initial.orientation[i]),
-                   vector_of(initial.angular_velocity[i])};
+    return kernels::BodyState{{},
+                              vector_of(initial.velocity[i]),
+                              vector_of(initial.orientation[i]),
+                              vector_of(initial.angular_velocity[i])};
   });
   return reason ? words_for(*reason) : "";
 }

@@ -10,6 +10,7 @@
 
 #include "needlework/error.h"
 #include "needlework/h5md.h"
+#include "src/box/vector.h"
 #include "src/io/bodies.h"
 #include "src/io/frame_rows.h"
 #include "src/io/in_child_process.h"
@@ -38,8 +39,6 @@ namespace needlework::io {
 using hdf5::Shape;
 
 namespace {
-
-using Vector = std::array<double, 3>;
 
 [[noreturn]] void reject(const std::string& place, const std::string& what) {
   throw InputError(place + what);

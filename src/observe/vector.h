@@ -3,9 +3,9 @@
 
 #include <array>
 
-namespace needlework::observe {
+#include "src/box/vector.h"
 
-using Vector = std::array<double, 3>;
+namespace needlework::observe {
 
 inline double dot(const Vector& a, const Vector& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -39,7 +39,7 @@ Tangential tangential(const kernels::ContactGeometry& c, const Vec3d& v, double 
 }  // namespace
 
 template <Surface surface>
-Impact collide(const Meeting& meeting, const Restitution& restitution) {
+Impact collide(const CollidingPair& meeting, const Restitution& restitution) {
   const auto& [v_first, w_first, v_second, w_second, body_first, body_second, c, side] = meeting;
   const double epsilon = restitution.epsilon;
   const Vec3d v = (v_first - v_second) + (cross(w_first, c.u_first) * c.arm_first -
@@ -73,8 +73,8 @@ Impact collide(const Meeting& meeting, const Restitution& restitution) {
   return out;
 }
 
-template Impact collide<Surface::smooth>(const Meeting&, const Restitution&);
-template Impact collide<Surface::rough>(const Meeting&, const Restitution&);
-template Impact collide<Surface::wide>(const Meeting&, const Restitution&);
+template Impact collide<Surface::smooth>(const CollidingPair&, const Restitution&);
+template Impact collide<Surface::rough>(const CollidingPair&, const Restitution&);
+template Impact collide<Surface::wide>(const CollidingPair&, const Restitution&);
 
 }  // namespace needlework

@@ -15,7 +15,7 @@ struct Impact {
 };
 
 /// Two needles at their contact.
-struct Meeting {
+struct CollidingPair {
   const Vec3d& v_first;  ///< velocities at the contact
   const Vec3d& w_first;
   const Vec3d& v_second;
@@ -38,6 +38,6 @@ enum class Surface {
 /// Rev. E 60, 654 (1999). For unlike needles 2 / m is replaced by 1 / m1 + 1 / m2, and each needle
 /// has its own inertia; at the caps of rods the inertia counts by |u x n|^2 < 1.
 template <Surface surface>
-Impact collide(const Meeting& meeting, const Restitution& restitution);
+Impact collide(const CollidingPair& meeting, const Restitution& restitution);
 
 }  // namespace needlework

@@ -8,14 +8,9 @@
 #include <cstddef>
 #include <optional>
 
-#include "kernels/vec3.h"
+#include "kernels/body_state.h"
 
 namespace needlework {
-
-/// Velocity, director and angular velocity of a needle.
-struct Heading {
-  Vec3d v, u, w;
-};
 
 /// Why there are no collisions.
 enum class Collisionless {
@@ -32,35 +27,36 @@ enum class Collisionless {
 const char* words_for(Collisionless reason);
 
 /// Whether the motion stays in a plane normal to this axis.
-inline bool stays_normal_to(int axis, const Heading& heading) {
+inline bool stays_normal_to(int axis, const kernels::BodyState& state) {
   const auto along = [&](const Vec3d& a) { return axis == 0 ? a.x : axis == 1 ? a.y : a.z; };
-  Vec3d across = heading.w;
+  Vec3d across = state.w;
   (axis == 0 ? across.x : axis == 1 ? across.y : across.z) = 0;
-  return along(heading.u) == 0 && along(heading.v) == 0 && across == Vec3d{};
+  return along(state.u) == 0 && along(state.v) == 0 && across == Vec3d{};
 }
 
-/// Nothing if needles may collide, for all that heading(i) of each of `count` needles shows. That
-/// is known after a few needles if their motions have nothing in common.
-template <class HeadingOf>
-std::optional<Collisionless> collisionless(std::size_t count, HeadingOf&& heading) {
+/// Nothing if needles may collide, for all that state_of(i) of each of `count` needles shows, whose
+/// centres do not count. That is known after a few needles if their motions have nothing in common.
+template <class StateOf>
+std::optional<Collisionless> collisionless(std::size_t count, StateOf&& state_of) {
   using enum Collisionless;
   if (count < 2) return count == 0 ? no_needles : one_needle;
   const auto all = [&](const auto& holds) {
     for (std::size_t i = 0; i < count; ++i) {
-      if (!holds(heading(i))) return false;
+      if (!holds(state_of(i))) return false;
     }
     return true;
   };
-  const Heading first = heading(0);
-  if (all([&](const Heading& a) { return a.w == Vec3d{} && a.v == first.v; })) return alike;
-  if (all([&](const Heading& a) {
+  const kernels::BodyState first = state_of(0);
+  if (all([&](const kernels::BodyState& a) { return a.w == Vec3d{} && a.v == first.v; }))
+    return alike;
+  if (all([&](const kernels::BodyState& a) {
         return a.w == Vec3d{} && (a.u == first.u || a.u == -first.u);
       })) {
     return parallel;
   }
-  if (all([](const Heading& a) { return stays_normal_to(0, a); })) return normal_to_x;
-  if (all([](const Heading& a) { return stays_normal_to(1, a); })) return normal_to_y;
-  if (all([](const Heading& a) { return stays_normal_to(2, a); })) return normal_to_z;
+  if (all([](const kernels::BodyState& a) { return stays_normal_to(0, a); })) return normal_to_x;
+  if (all([](const kernels::BodyState& a) { return stays_normal_to(1, a); })) return normal_to_y;
+  if (all([](const kernels::BodyState& a) { return stays_normal_to(2, a); })) return normal_to_z;
   return std::nullopt;
 }
 

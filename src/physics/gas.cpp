@@ -145,7 +145,7 @@ void Gas::let_slide() {
 
 kernels::BodyState Gas::present(Id id, const Record& record, Time now) const {
   const Slide* slide = slides && record.is_sliding() ? slides->of(id, record) : nullptr;
-  return NeedleCourse(*this, id, record, slide, clock.difference(now, record.time)).at(0);
+  return NeedleTrajectory(*this, id, record, slide, clock.difference(now, record.time)).at(0);
 }
 
 Shift renew_record(Gas& gas, Needle i, Time now, const kernels::BodyState& state, double extent) {

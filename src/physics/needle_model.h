@@ -78,14 +78,16 @@ class NeedleModel {
     };
     if constexpr (has_effects) {
       const Vec3d v_first = velocity(a, now), v_second = velocity(b, now);
-      const Meeting both{v_first, first.w, v_second, second.w, body(i), body(j), contact, side};
+      const CollidingPair both{v_first, first.w, v_second, second.w,
+                               body(i), body(j), contact,  side};
       if (elastic) return outcome(needlework::collide<Law::surface>(both, Restitution{}));
       const Restitution& rule = restitution(a, b);
       if (Law::may_be_rough && rule.is_rough())
         return outcome(needlework::collide<Surface::rough>(both, rule));
       return outcome(needlework::collide<Law::surface>(both, rule));
     } else {
-      const Meeting both{first.v, first.w, second.v, second.w, body(i), body(j), contact, side};
+      const CollidingPair both{first.v, first.w, second.v, second.w,
+                               body(i), body(j), contact,  side};
       return outcome(needlework::collide<Law::surface>(both, restitution(a, b)));
     }
   }

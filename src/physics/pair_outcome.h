@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "kernels/course_contact.h"
+#include "kernels/body_state.h"
 #include "src/physics/collision.h"
 
 namespace needlework {
@@ -22,7 +22,7 @@ struct PairOutcome {
   bool contact_time_rule = false;  ///< the t_c rule applied
   double normal_velocity = 0;      ///< V_n before the event [L / time]
   double energy_change = 0;        ///< of both needles, of either sign
-  Vec3d impulse;                   ///< on the first needle; the second gets the opposite [m L / time]
+  Vec3d impulse;  ///< on the first needle; the second gets the opposite [m L / time]
 
   bool are_bonded() const { return bond == BondChange::begins || bond == BondChange::continues; }
 

@@ -93,8 +93,8 @@ const Slide* Slides::find(Id first, std::uint32_t serial) const {
   return found == slides_.end() ? nullptr : found->second.get();
 }
 
-NeedleCourse::NeedleCourse(const Gas& gas, Id id, const Record& record, const Slide* slide,
-                           double delay)
+NeedleTrajectory::NeedleTrajectory(const Gas& gas, Id id, const Record& record, const Slide* slide,
+                                   double delay)
     : gas_(gas),
       record_(record),
       slide_(slide),
@@ -116,7 +116,7 @@ NeedleCourse::NeedleCourse(const Gas& gas, Id id, const Record& record, const Sl
   turning_faster = index_ == 0 ? most.turned_faster_first : most.turned_faster_second;
 }
 
-kernels::BodyState NeedleCourse::at(double s) const {
+kernels::BodyState NeedleTrajectory::at(double s) const {
   const double elapsed = delay_ + s;
   if (slide_) return slide_->at(index_, record_.flight, gas_.gravity, elapsed);
   const FreeFlight motion = gas_.motion(record_);

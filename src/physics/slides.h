@@ -12,8 +12,8 @@
 #include <mutex>
 #include <unordered_map>
 
-#include "kernels/course_contact.h"
 #include "kernels/sliding_motion.h"
+#include "kernels/trajectory_contact.h"
 #include "src/physics/record.h"
 
 namespace needlework {
@@ -84,10 +84,10 @@ class Slides {
 };
 
 /// The course of a needle from a later time on, whether or not it slides.
-class NeedleCourse final : public kernels::Course {
+class NeedleTrajectory final : public kernels::Trajectory {
  public:
   /// `slide` is null for a needle in free flight. From `delay` after its record on.
-  NeedleCourse(const Gas& gas, Id id, const Record& record, const Slide* slide, double delay);
+  NeedleTrajectory(const Gas& gas, Id id, const Record& record, const Slide* slide, double delay);
   kernels::BodyState at(double s) const override;
 
  private:

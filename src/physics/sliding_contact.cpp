@@ -14,15 +14,15 @@ bool refers_to(const Record& record, Id other) {
   return record.is_sliding() && record.first_touch.partner == other;
 }
 
-// Calls what(pair) with both courses.
+// Calls what(pair) with both trajectories.
 template <class What>
-auto with_courses(const SlidingPair& pair, const What& what) {
-  const NeedleCourse first(*pair.gas, pair.id_first, *pair.record_first, pair.slide_first,
-                           to_double(pair.elapsed_first));
-  const NeedleCourse second(*pair.gas, pair.id_second, *pair.record_second, pair.slide_second,
-                            to_double(pair.elapsed_second));
-  return what(kernels::CoursePair{first, second, to_double(pair.shift), pair.half_first,
-                                  pair.half_second, pair.touch, pair.touch_within});
+auto with_trajectories(const SlidingPair& pair, const What& what) {
+  const NeedleTrajectory first(*pair.gas, pair.id_first, *pair.record_first, pair.slide_first,
+                               to_double(pair.elapsed_first));
+  const NeedleTrajectory second(*pair.gas, pair.id_second, *pair.record_second, pair.slide_second,
+                                to_double(pair.elapsed_second));
+  return what(kernels::TrajectoryPair{first, second, to_double(pair.shift), pair.half_first,
+                                      pair.half_second, pair.touch, pair.touch_within});
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ void SlidingPair::look_up(const Gas& its_gas, const Needle& a, const Needle& b,
   } else {
     // Of all images, that of the contact is the one which is near.
     const double near = half_first + half_second;
-    const bool is_near = with_courses(*this, [&](const kernels::CoursePair& pair) {
+    const bool is_near = with_trajectories(*this, [&](const kernels::TrajectoryPair& pair) {
       const Vec3d apart = (pair.first.at(0).r - pair.second.at(0).r) - pair.shift;
       return dot(apart, apart) < near * near * (1 + 0x1p-20);
     });
@@ -66,8 +66,8 @@ kernels::Contact SlidingContact::first_contact(const Pair& pair, double from, do
                                                kernels::EvaluationCounters& spent) const {
   if (!pair.any_slides()) return free_.first_contact(pair, from, to, spent);
   if (pair.bond == Pair::Bond::none) {
-    return with_courses(pair, [&](const kernels::CoursePair& courses) {
-      return kernels::course_contact(courses, from, to, spent);
+    return with_trajectories(pair, [&](const kernels::TrajectoryPair& trajectories) {
+      return kernels::trajectory_contact(trajectories, from, to, spent);
     });
   }
   kernels::Contact out;
@@ -80,22 +80,22 @@ kernels::Contact SlidingContact::first_contact(const Pair& pair, double from, do
 double SlidingContact::gap(const Pair& pair, const DoubleDouble& elapsed) const {
   if (!pair.any_slides()) return free_.gap(pair, elapsed);
   if (pair.bond != Pair::Bond::none) return pair.joint().side * least_gap;
-  return with_courses(pair, [&](const kernels::CoursePair& courses) {
-    return kernels::course_gap(courses, to_double(elapsed));
+  return with_trajectories(pair, [&](const kernels::TrajectoryPair& trajectories) {
+    return kernels::trajectory_gap(trajectories, to_double(elapsed));
   });
 }
 
 int SlidingContact::side_after(const Pair& pair) const {
   if (!pair.any_slides()) return free_.side_after(pair);
   if (pair.bond != Pair::Bond::none) return pair.joint().side;
-  return with_courses(pair, kernels::course_side_after);
+  return with_trajectories(pair, kernels::trajectory_side_after);
 }
 
 kernels::ContactGeometry SlidingContact::geometry(const Pair& pair,
                                                   const DoubleDouble& elapsed) const {
   if (!pair.any_slides()) return free_.geometry(pair, elapsed);
-  return with_courses(pair, [&](const kernels::CoursePair& courses) {
-    return kernels::course_geometry(courses, to_double(elapsed));
+  return with_trajectories(pair, [&](const kernels::TrajectoryPair& trajectories) {
+    return kernels::trajectory_geometry(trajectories, to_double(elapsed));
   });
 }
 

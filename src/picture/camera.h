@@ -6,11 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "src/box/vector.h"
 #include "src/picture/point.h"
 
 namespace needlework::picture {
-
-using Vector = std::array<double, 3>;
 
 double dot(const Vector& a, const Vector& b);
 

@@ -9,6 +9,7 @@
 
 #include "needlework/h5md.h"
 #include "src/box/box.h"
+#include "src/box/vector.h"
 #include "src/picture/needle_values.h"
 #include "src/picture/walls.h"
 
@@ -17,8 +18,6 @@ namespace needlework::report {
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-using Vector = std::array<double, 3>;
 
 float length_of(const Vector& a) { return static_cast<float>(std::hypot(a[0], a[1], a[2])); }
 
@@ -141,7 +140,7 @@ void add_sizes(Json& out, const std::string& name, const std::vector<double>& si
 }  // namespace
 
 Json frames_of(const std::string& path, const BodySizes& sizes, std::span<const Scene::Wall> walls,
-               const Limits& limits, Arrays& arrays) {
+               const PageLimits& limits, Arrays& arrays) {
   const io::FrameFile file(path);
   const State first = file.read(0);
   const std::size_t needles = first.size();

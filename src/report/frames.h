@@ -33,7 +33,7 @@ struct BodySizes {
 ///
 /// Frames and needles beyond the limits are left out evenly, the same needles in all frames.
 nlohmann::ordered_json frames_of(const std::string& path, const BodySizes& sizes,
-                                 std::span<const Scene::Wall> walls, const Limits& limits,
+                                 std::span<const Scene::Wall> walls, const PageLimits& limits,
                                  Arrays& arrays);
 
 }  // namespace needlework::report

@@ -46,7 +46,7 @@ bool looks_like_json(const std::string& bytes) {
   return first != bytes.npos && bytes[first] == '{';
 }
 
-Json section_of(const std::string& path, const Limits& limits, Arrays& arrays) {
+Json section_of(const std::string& path, const PageLimits& limits, Arrays& arrays) {
   const std::string bytes = first_bytes(path);
   if (looks_like_json(bytes)) return bench_section(path);
   if (!bytes.starts_with("\x89HDF")) throw InputError(fmt::format("{}: {}", path, accepted));

@@ -13,7 +13,7 @@ struct Request {
   std::string out;                 ///< page to write
   std::string title;               ///< empty: that of the first run
   bool force = false;              ///< whether to replace an existing page
-  Limits limits;
+  PageLimits limits;
 };
 
 /// Writes the page. The same files make the same bytes. Throws InputError for a file of another

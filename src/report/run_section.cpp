@@ -65,7 +65,7 @@ class Group {
 
   bool empty() const { return datasets_.empty(); }
 
-  Json read(const Limits& limits, Arrays& arrays, const Part& part = {}) const {
+  Json read(const PageLimits& limits, Arrays& arrays, const Part& part = {}) const {
     Json out = {{"description", contents_.description(path_)}};
     std::size_t rows = timed_ ? contents_.shape(*timed_).at(0) : 0;
     auto chosen = evenly(rows, std::min(limits.samples, affordable_rows(limits)));
@@ -106,7 +106,7 @@ class Group {
     bool is_picture() const { return has_rows && row_size() > 1000; }
   };
 
-  std::size_t affordable_rows(const Limits& limits) const {
+  std::size_t affordable_rows(const PageLimits& limits) const {
     std::size_t bytes = 0;
     for (const Dataset& dataset : datasets_) {
       if (!dataset.has_rows) continue;
@@ -180,7 +180,7 @@ Of what_of(const std::string& group) {
 
 // The totals under "totals", and each group of /series under its name. Of a mixture those that are
 // of this kind, and of each their part.
-Json groups_of(const io::Contents& contents, const Limits& limits, Arrays& arrays,
+Json groups_of(const io::Contents& contents, const PageLimits& limits, Arrays& arrays,
                std::optional<Of> of = {}, const Part& part = {}) {
   Json out = Json::object();
   const auto add = [&](const std::string& name, const std::string& path) {
@@ -200,7 +200,7 @@ constexpr std::size_t most_in_parts = 8;
 
 // The observables of each species and of each two of them, as those of a gas of one species.
 Json parts_of(const io::Contents& contents, const std::vector<std::string>& species,
-              const Limits& limits, Arrays& arrays) {
+              const PageLimits& limits, Arrays& arrays) {
   Json out = Json::array();
   const auto add = [&](const std::string& name, Of of, const Part& part) {
     Json groups = groups_of(contents, limits, arrays, of, part);
@@ -221,7 +221,7 @@ Json parts_of(const io::Contents& contents, const std::vector<std::string>& spec
 
 }  // namespace
 
-Json run_section(const std::string& path, const io::Contents& contents, const Limits& limits,
+Json run_section(const std::string& path, const io::Contents& contents, const PageLimits& limits,
                  Arrays& arrays) {
   Json out = {{"kind", "run"}, {"file", path}, {"parameters", parameters_of(contents)}};
   const auto text = contents.texts("/parameters/scene");

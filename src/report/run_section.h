@@ -15,6 +15,6 @@ namespace needlework::report {
 /// shown of how many, times, and datasets with shape, description and array; and `frames`. Of
 /// time_correlation there is one row, see LagMeans, the mean of `mean_of_rows` or, at 0, the last.
 nlohmann::ordered_json run_section(const std::string& path, const io::Contents& contents,
-                                   const Limits& limits, Arrays& arrays);
+                                   const PageLimits& limits, Arrays& arrays);
 
 }  // namespace needlework::report

@@ -50,7 +50,7 @@ Json quantities_of(const io::Contents& contents, const std::string& group,
   return out;
 }
 
-Json series_of(const io::Contents& contents, const std::string& point, const Limits& limits,
+Json series_of(const io::Contents& contents, const std::string& point, const PageLimits& limits,
                Arrays& arrays) {
   const std::string group = "/series/" + point;
   const std::size_t count = contents.shape(group + "/time").at(0);
@@ -64,7 +64,7 @@ Json series_of(const io::Contents& contents, const std::string& point, const Lim
 
 }  // namespace
 
-Json sweep_section(const std::string& path, const io::Contents& contents, const Limits& limits,
+Json sweep_section(const std::string& path, const io::Contents& contents, const PageLimits& limits,
                    Arrays& arrays) {
   const std::vector<double> count = contents.numbers("/members/count");
   const auto points = evenly(count.size(), count.size());

@@ -14,6 +14,6 @@ namespace needlework::report {
 /// `members` at each point, `results` with mean and standard error for each point, and the `series`
 /// of each point.
 nlohmann::ordered_json sweep_section(const std::string& path, const io::Contents& contents,
-                                     const Limits& limits, Arrays& arrays);
+                                     const PageLimits& limits, Arrays& arrays);
 
 }  // namespace needlework::report

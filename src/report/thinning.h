@@ -7,7 +7,7 @@
 namespace needlework::report {
 
 /// What a page holds at the most, so that a browser opens it quickly.
-struct Limits {
+struct PageLimits {
   std::size_t needles = 20000;        ///< of one frame
   std::size_t frames = 200;           ///< of one file
   std::size_t drawn = 600000;         ///< needles of all frames of a file together

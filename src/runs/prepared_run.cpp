@@ -127,7 +127,7 @@ PreparedRun::PreparedRun(LoadedScene loaded, bool force, const std::string& path
 PreparedRun::PreparedRun(LoadedScene loaded, bool force)
     : PreparedRun(std::move(loaded), force, false, Saves::start_and_end) {}
 
-PreparedRun::PreparedRun(LoadedScene loaded, bool force, bool keeps_course, Saves saves)
+PreparedRun::PreparedRun(LoadedScene loaded, bool force, bool keeps_result, Saves saves)
     : scene_(std::move(loaded.scene)),
       saves_(saves),
       drawn_(!loaded.initial),
@@ -138,7 +138,7 @@ PreparedRun::PreparedRun(LoadedScene loaded, bool force, bool keeps_course, Save
       [&](const io::RunInfo& info) { return io::Writer(scene_.output.file, force, scene_, info); });
   // Those of an older run, whose file has just been replaced.
   if (writer_) checkpoints().remove();
-  driver_.emplace(simulation_, scene_, initial_, output(), keeps_course);
+  driver_.emplace(simulation_, scene_, initial_, output(), keeps_result);
 }
 
 PreparedRun::PreparedRun(RunCheckpoint saved, Saves saves)
@@ -344,7 +344,7 @@ std::exception_ptr PreparedRun::error_for_caller() {
   }
 }
 
-Course PreparedRun::drive(RunMonitor& monitor, double spent) {
+RunResult PreparedRun::drive(RunMonitor& monitor, double spent) {
   std::optional<Kept> kept;
   try {
     Scene::Until until = scene_.until;
@@ -358,13 +358,13 @@ Course PreparedRun::drive(RunMonitor& monitor, double spent) {
   const bool stopped = driver_->stop() == Stop::interrupted || driver_->stop() == Stop::wall_time;
   const bool saves = why_not_saved().empty() && (stopped || saves_ == Saves::start_and_end);
   if (saves && !driver_->is_saved()) driver_->save_checkpoint(&monitor);
-  Course course = cut_off_ ? driver_->abandon() : driver_->finish();
+  RunResult result = cut_off_ ? driver_->abandon() : driver_->finish();
   if (kept) {
-    course.failure = std::move(kept->message);
-    course.bundle = std::move(kept->bundle);
+    result.failure = std::move(kept->message);
+    result.bundle = std::move(kept->bundle);
   }
   if (writer_) writer_->close();
-  return course;
+  return result;
 }
 
 Stop PreparedRun::advance(const Scene::Until& until, RunMonitor& monitor) {

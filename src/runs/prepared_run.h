@@ -53,17 +53,17 @@ class PreparedRun {
   /// For advance(): takes samples for the output file only.
   PreparedRun(LoadedScene loaded, bool force);
   /// Continues a run, with the output file that its scene names, or without output if it names
-  /// none; then its Course has no samples and no rate. Throws InputError if the file is not that of
-  /// the run, and IoError if it cannot be written.
+  /// none; then its RunResult has no samples and no rate. Throws InputError if the file is not that
+  /// of the run, and IoError if it cannot be written.
   explicit PreparedRun(RunCheckpoint saved, Saves saves = Saves::start_and_end);
   PreparedRun(const PreparedRun&) = delete;
   PreparedRun& operator=(const PreparedRun&) = delete;
 
   /// Runs to the end, to be called once; see RunDriver. Closes the file. Catches what makes a run
-  /// invalid, InvalidStateError and defects of the program: the message is in the Course, and a
+  /// invalid, InvalidStateError and defects of the program: the message is in the RunResult, and a
   /// bundle is beside the output file, if there is one. `spent`: wall time that has passed of
   /// until.wall_s [s].
-  Course drive(RunMonitor& monitor, double spent = 0);
+  RunResult drive(RunMonitor& monitor, double spent = 0);
 
   /// Advances until the first of the conditions is met, which count from the start of the run. The
   /// functions of on_collisions() and on_happenings() have seen all that has happened when this
@@ -113,7 +113,7 @@ class PreparedRun {
   std::string warning() const;
 
  private:
-  PreparedRun(LoadedScene loaded, bool force, bool keeps_course, Saves saves);
+  PreparedRun(LoadedScene loaded, bool force, bool keeps_result, Saves saves);
   Simulation make_simulation(const LoadedScene& loaded);
   Simulation continue_simulation(const RunCheckpoint& saved);
   /// Throws InputError unless the parts of the checkpoint belong together.

@@ -47,13 +47,13 @@ class Timed {
 }  // namespace
 
 RunDriver::RunDriver(Simulation& simulation, const Scene& scene, const Totals& initial,
-                     Output output, bool keeps_course)
+                     Output output, bool keeps_result)
     : simulation_(simulation),
       scene_(scene),
       output_(output),
-      keeps_course_(keeps_course),
+      keeps_result_(keeps_result),
       collisions_before_(simulation.collisions()) {
-  course_.initial = initial;
+  result_.initial = initial;
   if (!samples()) return;
   const double start = first_sample * simulation.mean_free_time();
   series_ = series_schedule(scene.output, start);
@@ -81,23 +81,23 @@ Stop RunDriver::advance(const Scene::Until& until, RunMonitor& monitor) {
     sample_again();
     schedule_if_set_in_motion();
   }
-  monitor.begin(course_.initial, course_.samples, course_.theory_holds);
+  monitor.begin(result_.initial, result_.samples, result_.theory_holds);
   // A sum over all needles, which short advances that nobody follows can do without.
   pace_.reset();
   if (monitor.is_due(std::numeric_limits<double>::infinity())) {
-    pace_.emplace(simulation_, scene_, until, course_.initial);
+    pace_.emplace(simulation_, scene_, until, result_.initial);
   }
   for (;;) {
-    if (monitor.stop_requested()) return course_.stop = Stop::interrupted;
+    if (monitor.stop_requested()) return result_.stop = Stop::interrupted;
     if (until.wall_s && seconds_since(start) >= *until.wall_s) {
-      return course_.stop = Stop::wall_time;
+      return result_.stop = Stop::wall_time;
     }
     // Steps end at samples, so that the simulation cannot tell.
     const bool may_never_end = !until.time || !std::isfinite(*until.time);
     if (may_never_end && !simulation_.why_no_collision().empty()) {
-      return course_.stop = Stop::nothing_can_happen;
+      return result_.stop = Stop::nothing_can_happen;
     }
-    if (const auto stop = step(until, start)) return course_.stop = *stop;
+    if (const auto stop = step(until, start)) return result_.stop = *stop;
     flush_if_due();
     save_checkpoint_if_due(monitor);
     const double elapsed = seconds_since(start);
@@ -105,7 +105,7 @@ Stop RunDriver::advance(const Scene::Until& until, RunMonitor& monitor) {
   }
 }
 
-Course RunDriver::finish() {
+RunResult RunDriver::finish() {
   if (failure_) std::rethrow_exception(failure_);
   if (!begun_) begin(nullptr);
   take_last_totals();
@@ -114,14 +114,14 @@ Course RunDriver::finish() {
     sample(!is_sampled(), !has_frame());
   }
   if (output_.writer) flush();
-  if (rate_) course_.system_rate = rate_->estimate(course_.last.time);
-  return std::move(course_);
+  if (rate_) result_.system_rate = rate_->estimate(result_.last.time);
+  return std::move(result_);
 }
 
 void RunDriver::velocities_set(const Totals& before, const Totals& after) {
   if (output_.writer) output_.writer->write_velocities_set(before, after);
   if (output_.observation) output_.observation->velocities_set();
-  course_.theory_holds = false;
+  result_.theory_holds = false;
   sample_is_old_ = last_sample_.has_value();
   frame_is_old_ = last_frame_.has_value();
 }
@@ -146,14 +146,14 @@ void RunDriver::sample_again() {
   sample(series, frame);
 }
 
-Course RunDriver::abandon() {
+RunResult RunDriver::abandon() {
   take_last_totals();
-  return std::move(course_);
+  return std::move(result_);
 }
 
 void RunDriver::take_last_totals() {
-  course_.last = simulation_.totals();
-  course_.collisions = course_.last.collisions - collisions_before_;
+  result_.last = simulation_.totals();
+  result_.collisions = result_.last.collisions - collisions_before_;
 }
 
 void RunDriver::on_happening(std::function<void(const Happening&)> callback) {
@@ -162,7 +162,7 @@ void RunDriver::on_happening(std::function<void(const Happening&)> callback) {
 }
 
 void RunDriver::begin(RunMonitor* monitor) {
-  if (keeps_course_ && starts_in_equilibrium(scene_)) rate_.emplace(simulation_.mean_free_time());
+  if (keeps_result_ && starts_in_equilibrium(scene_)) rate_.emplace(simulation_.mean_free_time());
   listen();
   if (samples()) {
     sample(!last_sample_, !last_frame_);
@@ -177,16 +177,16 @@ void RunDriver::transfer(Archive& archive) {
   if (failure_) std::rethrow_exception(failure_);  // what was lost must not count as saved
   bool has_rate = rate_.has_value();
   archive(begun_, series_, frames_, last_sample_, last_frame_, sample_is_old_, frame_is_old_,
-          course_.theory_holds, course_.samples, has_rate);
+          result_.theory_holds, result_.samples, has_rate);
   if (archive.reads()) {
     require_restored(archive);
     rate_.reset();
     if (has_rate) rate_.emplace(simulation_.mean_free_time());
   }
   if (rate_) rate_->transfer(archive);
-  if (archive.reads() && !keeps_course_) {
+  if (archive.reads() && !keeps_result_) {
     rate_.reset();
-    course_.samples.clear();
+    result_.samples.clear();
   }
   if (archive.reads() && begun_) listen();
 }
@@ -199,7 +199,7 @@ void RunDriver::require_restored(const Archive& archive) const {
   const double turning = simulation_.composition().turning_share();
   const bool falls = has_gravity(scene_);
   archive.require(std::ranges::all_of(
-      course_.samples, [&](const Totals& sample) { return are_possible(sample, turning, falls); }));
+      result_.samples, [&](const Totals& sample) { return are_possible(sample, turning, falls); }));
   // A run begins with a sample, with which that of its end is compared.
   archive.require(!begun_ || last_sample_);
 }
@@ -251,11 +251,11 @@ std::optional<Stop> RunDriver::step(const Scene::Until& until, SteadyClock::time
 
   const Stop stop = [&] {
     if (!prepared_) {
-      const Timed timed(course_.setup);
+      const Timed timed(result_.setup);
       if (const auto early = simulation_.prepare(limits)) return *early;
       prepared_ = true;
     }
-    const Timed timed(course_.loop);
+    const Timed timed(result_.loop);
     return simulation_.advance(limits);
   }();
   if (failure_) std::rethrow_exception(failure_);  // here and in every later call
@@ -276,7 +276,7 @@ void RunDriver::sample(bool series, bool frame) {
   State state;
   if (reads_state || (writer && frame)) simulation_.copy(state);
   if (series) {
-    if (keeps_course_) course_.samples.push_back(totals);
+    if (keeps_result_) result_.samples.push_back(totals);
     if (observation) {
       observe::SpeciesSums species;
       if (simulation_.composition().is_mixture()) {

@@ -23,7 +23,7 @@
 namespace needlework::runs {
 
 /// How a run went.
-struct Course {
+struct RunResult {
   Totals initial, last;
   std::vector<Totals> samples;  ///< the series, first and last included
   Stop stop = Stop::time;
@@ -50,10 +50,10 @@ struct Output {
 class RunDriver {
  public:
   /// Simulation, scene and output must live as long as the driver. `initial` are the totals at the
-  /// start of the run. `keeps_course` says whether someone wants the samples and the rate of the
-  /// Course; without that and without output, the driver takes no samples.
+  /// start of the run. `keeps_result` says whether someone wants the samples and the rate of the
+  /// RunResult; without that and without output, the driver takes no samples.
   RunDriver(Simulation& simulation, const Scene& scene, const Totals& initial, Output output,
-            bool keeps_course);
+            bool keeps_result);
 
   /// Advances until the first of the conditions is met or the monitor asks to stop. The conditions
   /// count from the start of the run, wall time from this call. Throws what Simulation::advance()
@@ -69,15 +69,15 @@ class RunDriver {
   void sample_now(bool frame);
 
   /// Why the last advance ended.
-  Stop stop() const { return course_.stop; }
+  Stop stop() const { return result_.stop; }
 
-  /// Saves or restores how far samples and frames have come, and the Course up to now.
+  /// Saves or restores how far samples and frames have come, and the RunResult up to now.
   void transfer(Archive& archive);
 
   /// Writes and flushes the sample and the frame of the end. To be called once, at the end.
-  Course finish();
+  RunResult finish();
   /// The same without sample and frame, for a state that is not sound.
-  Course abandon();
+  RunResult abandon();
 
   /// Saves the run, if the output does that, and says so to the monitor, if there is one.
   void save_checkpoint(RunMonitor* monitor);
@@ -91,7 +91,7 @@ class RunDriver {
  private:
   using SteadyClock = std::chrono::steady_clock;
 
-  bool samples() const { return output_.writer || output_.observation || keeps_course_; }
+  bool samples() const { return output_.writer || output_.observation || keeps_result_; }
   void begin(RunMonitor* monitor);
   void schedule_if_set_in_motion();
   void record(const Happening& happening);
@@ -111,7 +111,7 @@ class RunDriver {
   Simulation& simulation_;
   const Scene& scene_;
   const Output output_;
-  const bool keeps_course_;
+  const bool keeps_result_;
   const std::uint64_t collisions_before_;  ///< by other processes
   bool begun_ = false;
   bool prepared_ = false;  ///< whether all needles have searched
@@ -119,7 +119,7 @@ class RunDriver {
   std::optional<BatchRate> rate_;
   std::function<void(const Happening&)> callback_;
   std::exception_ptr failure_;  ///< of writing or observing an event
-  Course course_;
+  RunResult result_;
   std::optional<Pace> pace_;  ///< of this advance, if someone follows it
   /// Time and collisions at the last checkpoint of this process.
   std::optional<std::pair<double, std::uint64_t>> saved_;

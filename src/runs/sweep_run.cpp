@@ -122,7 +122,7 @@ ExitCode run_member(const MemberRuns& runs, const sweep::Member& member, MemberM
 
   Scene scene = member.scene;
   scene.output.file = folder.unfinished_file(member);
-  const Course course = [&] {
+  const RunResult result = [&] {
     try {
       return set_up(std::move(scene), runs.grid.name, monitor)->drive(monitor);
     } catch (...) {
@@ -133,20 +133,20 @@ ExitCode run_member(const MemberRuns& runs, const sweep::Member& member, MemberM
       throw;
     }
   }();
-  if (course.failure) {
+  if (result.failure) {
     folder.keep(member, SweepFolder::State::failed);
     const std::string file = folder.failed_file(member);
     const std::string replay =
-        course.bundle.empty()
+        result.bundle.empty()
             ? ""
             : fmt::format("; needlework replay {} shows it again", CheckpointFiles(file).bundle());
-    throw InvalidStateError(fmt::format("{} (saved in {}{})", *course.failure, file, replay));
+    throw InvalidStateError(fmt::format("{} (saved in {}{})", *result.failure, file, replay));
   }
-  if (course.stop == Stop::interrupted) return stopped;
+  if (result.stop == Stop::interrupted) return stopped;
   folder.keep(member, SweepFolder::State::finished);
-  monitor.report_finished(member, {.collisions = course.collisions,
-                                   .wall_s = course.loop.wall(),
-                                   .cpu_s = course.loop.thread_cpu()});
+  monitor.report_finished(member, {.collisions = result.collisions,
+                                   .wall_s = result.loop.wall(),
+                                   .cpu_s = result.loop.thread_cpu()});
   return ok;
 }
 

@@ -6,12 +6,11 @@
 #include <limits>
 #include <span>
 
+#include "src/box/vector.h"
 #include "src/machine/stop_request.h"
 
 namespace needlework {
 namespace {
-
-using Vector = std::array<double, 3>;
 
 // Sites of a cell, as shares of its edges; rods are along the third.
 constexpr Vector hexagonal[] = {{0, 0, 0}, {0.5, 0.5, 0}};

@@ -64,7 +64,7 @@ TEST(AuditWindows, HaveTheMeanFreeTimeOfTheEngine) {
       scene.initial.t_tr = t_tr;
       scene.initial.t_rot = t_rot;
       const audit::Temperatures gas{50, t_tr, t_rot};
-      const audit::Body body{.k = k};
+      const audit::AuditedBody body{.k = k};
       const double ours = audit::mean_free_time({&gas, 1}, {&body, 1}, 125);
       EXPECT_NEAR(ours / Simulation(scene).mean_free_time(), 1, audit::Windows::tolerance / 2)
           << k << ", " << t_tr << ", " << t_rot;
@@ -82,7 +82,7 @@ TEST(AuditWindows, HaveTheMeanFreeTimeOfTheEngineForMixtures) {
         {.name = "c", .count = 1, .length = 2, .mass = 1e-3, .k = 6, .t_tr = 1, .t_rot = 1}};
     const Simulation simulation(scene);
     std::vector<audit::Temperatures> gas;
-    std::vector<audit::Body> bodies;
+    std::vector<audit::AuditedBody> bodies;
     const auto totals = simulation.species_totals();
     for (std::size_t n = 0; n < 3; ++n) {
       const Species& each = scene.species[n];

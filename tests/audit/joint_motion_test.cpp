@@ -17,21 +17,21 @@
 namespace needlework::test {
 namespace {
 
-using audit::Body;
+using audit::AuditedBody;
 using audit::Extended;
 using audit::JointMotion;
 using audit::Needle;
 using audit::Record;
 using Vector3 = audit::Vector<double>;
 
-const std::array<Body, 2> alike_bodies = {Body{}, Body{}};
-const std::array<Body, 2> unlike_bodies = {Body{.length = 1, .mass = 1, .k = 6},
-                                           Body{.length = 0.6, .mass = 2.5, .k = 3}};
+const std::array<AuditedBody, 2> alike_bodies = {AuditedBody{}, AuditedBody{}};
+const std::array<AuditedBody, 2> unlike_bodies = {AuditedBody{.length = 1, .mass = 1, .k = 6},
+                                                  AuditedBody{.length = 0.6, .mass = 2.5, .k = 3}};
 
 // Pairs that begin to slide on each other, where the force presses, and needles about them.
 class RandomContacts {
  public:
-  explicit RandomContacts(const std::array<Body, 2>& bodies) : bodies_(bodies) {}
+  explicit RandomContacts(const std::array<AuditedBody, 2>& bodies) : bodies_(bodies) {}
 
   struct Contact {
     std::array<Record, 2> records;
@@ -75,27 +75,28 @@ class RandomContacts {
   Vector3 normal() { return {{gauss_(source_), gauss_(source_), gauss_(source_)}}; }
 
  private:
-  double arm(const Body& body) { return body.length / 2 * (2 * uniform_(source_) - 1); }
+  double arm(const AuditedBody& body) { return body.length / 2 * (2 * uniform_(source_) - 1); }
 
-  std::array<Body, 2> bodies_;
+  std::array<AuditedBody, 2> bodies_;
   std::mt19937_64 source_{5};
   std::normal_distribution<double> gauss_;
   std::uniform_real_distribution<double> uniform_;
 };
 
-JointMotion motion_of(const RandomContacts::Contact& contact, const std::array<Body, 2>& bodies) {
+JointMotion motion_of(const RandomContacts::Contact& contact,
+                      const std::array<AuditedBody, 2>& bodies) {
   return JointMotion(Needle(contact.records[0], bodies[0]), Needle(contact.records[1], bodies[1]),
                      contact.r12, contact.side);
 }
 
 Vec3d as_vec(const Vector3& a) { return {a[0], a[1], a[2]}; }
 
-class JointMotionOracle : public testing::TestWithParam<std::array<Body, 2>> {};
+class JointMotionOracle : public testing::TestWithParam<std::array<AuditedBody, 2>> {};
 
 TEST_P(JointMotionOracle, IsThatOfAContactHeldByAForce) {
-  const std::array<Body, 2>& bodies = GetParam();
+  const std::array<AuditedBody, 2>& bodies = GetParam();
   RandomContacts contacts(bodies);
-  const auto kernel_body = [](const Body& body) {
+  const auto kernel_body = [](const AuditedBody& body) {
     return kernels::SlidingBody{body.length / 2, body.mass, 1 / body.inverse_inertia<double>()};
   };
   int by_force = 0, by_tip = 0;
@@ -136,7 +137,7 @@ INSTANTIATE_TEST_SUITE_P(Bodies, JointMotionOracle, testing::Values(alike_bodies
 
 TEST(JointMotion, KeepsEnergyMomentumAndContact) {
   RandomContacts contacts(unlike_bodies);
-  const auto energy = [](const audit::BodyState& a, const Body& body) {
+  const auto energy = [](const audit::BodyState& a, const AuditedBody& body) {
     const Extended inertia = 1 / body.inverse_inertia<Extended>();
     return (body.mass * audit::dot(a.v, a.v) + inertia * audit::dot(a.du, a.du)) / 2;
   };

@@ -172,7 +172,7 @@ struct Passing {
 
 TEST(Collisionless, LongQuietIsAnEndUnlessThereIsALimitOnTime) {
   Passing passing;
-  EXPECT_EQ(passing.loop->advance(Limits(passing.run, until_collisions(1))),
+  EXPECT_EQ(passing.loop->advance(StopConditions(passing.run, until_collisions(1))),
             Stop::nothing_can_happen);
   // For two needles it takes 16 times as long.
   const double window =
@@ -184,7 +184,8 @@ TEST(Collisionless, LongQuietIsAnEndUnlessThereIsALimitOnTime) {
   EXPECT_FALSE(passing.run.collisionless());
 
   Passing with_limit;
-  EXPECT_EQ(with_limit.loop->advance(Limits(with_limit.run, until_time(4 * quiet))), Stop::time);
+  EXPECT_EQ(with_limit.loop->advance(StopConditions(with_limit.run, until_time(4 * quiet))),
+            Stop::time);
 }
 
 // However dilute: a collision begins the count again.
@@ -193,7 +194,7 @@ TEST(Collisionless, CollisionsKeepAGasAlive) {
   needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
   const auto loop = make_loop(run, {.search = "linked-cells", .calendar = "tournament"});
   run.windows.long_quiet = 4;  // 64 windows of two needles, and thousands until the end
-  EXPECT_EQ(loop->advance(Limits(run, until_collisions(300))), Stop::collisions);
+  EXPECT_EQ(loop->advance(StopConditions(run, until_collisions(300))), Stop::collisions);
   EXPECT_GT(run.gas.clock.since_start(run.now), 200 * run.windows.mean_free_time());
 }
 

@@ -173,8 +173,8 @@ TEST(EffectThatIsOff, HoldsAsMuchWithATable) {
     needlework::Run run(scene, make_gas(scene, state));
     run.effects.table = table;
     const auto loop = make_loop(run, {.search = "linked-cells", .calendar = "tournament"});
-    loop->advance(
-        Limits(run, {.time = 0.1, .collisions_per_needle = {}, .energy_ratio = {}, .wall_s = {}}));
+    loop->advance(StopConditions(
+        run, {.time = 0.1, .collisions_per_needle = {}, .energy_ratio = {}, .wall_s = {}}));
     return bytes_allocated - before;
   };
   const std::size_t without = bytes(false);

@@ -16,10 +16,10 @@
 #include "src/engine/initial_gas.h"
 #include "src/engine/make_loop.h"
 #include "src/engine/run.h"
-#include "tests/support/courses.h"
 #include "tests/support/parallel_loops.h"
 #include "tests/support/real.h"
 #include "tests/support/runs.h"
+#include "tests/support/trajectories.h"
 
 namespace needlework {
 namespace {
@@ -97,7 +97,7 @@ Turned turned(const Scene& scene, std::uint32_t most, const Make& make,
   Turned out;
   run.listeners.happening = [&](const Happening& h) { out.happenings.push_back(h); };
   const auto loop = make(run);
-  EXPECT_EQ(loop->advance(Limits(run, until)), until.time ? Stop::time : Stop::collisions);
+  EXPECT_EQ(loop->advance(StopConditions(run, until)), until.time ? Stop::time : Stop::collisions);
   out.hash = run.tally.hash.hex();
   out.redone = run.tally.counters.redone;
   if (!run.tally.by_source.empty()) out.events = run.tally.by_source[0].events;

@@ -37,7 +37,8 @@ TEST(RodsApart, NoOverlapIsDeeperThanRoundingExplains) {
     needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
     const auto loop = make_loop(run, {.search = "linked-cells", .calendar = "tournament"});
     for (int n = 1; n <= instants; ++n) {
-      ASSERT_EQ(loop->advance(Limits(run, test::until_collisions(0.5 * n))), Stop::collisions);
+      ASSERT_EQ(loop->advance(StopConditions(run, test::until_collisions(0.5 * n))),
+                Stop::collisions);
       const double most = explained_overlap(run.gas, run.now);
       // The dilute ones fly thousands of diameters, in the unit of the clock a share of that.
       EXPECT_LT(most, scene.species[0].count == 20 ? 2e-11 : 1e-12);
@@ -96,7 +97,7 @@ TEST(RodsApart, AnOverlapEndsTheRun) {
     plant_overlap(run.gas);
     const auto loop = make_loop(run, {.search = search, .calendar = "tournament"});
     try {
-      loop->advance(Limits(run, test::until_collisions(1)));
+      loop->advance(StopConditions(run, test::until_collisions(1)));
       ADD_FAILURE() << search;
     } catch (const UnfinishedEventError& error) {
       EXPECT_EQ(std::string(error.what()).substr(0, 37), "rods 0 and 1 overlap by 0.0688 at tim");

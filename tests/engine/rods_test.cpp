@@ -11,26 +11,26 @@
 #include "needlework/error.h"
 #include "needlework/initial_state.h"
 #include "needlework/simulation.h"
+#include "src/engine/drawn_state.h"
 #include "src/engine/initial_gas.h"
-#include "src/engine/initial_state.h"
 #include "src/engine/make_loop.h"
 #include "src/engine/run.h"
 #include "src/machine/stop_request.h"
-#include "src/scene/initial_state.h"
+#include "src/scene/drawing.h"
 #include "src/scene/rod_grid.h"
 #include "src/search/bounding_volumes.h"
-#include "tests/support/courses.h"
 #include "tests/support/parallel_loops.h"
 #include "tests/support/runs.h"
+#include "tests/support/trajectories.h"
 
 namespace needlework {
 namespace {
 
-using test::Course;
-using test::course_of;
 using test::loop_of;
 using test::rods_and_spheres;
 using test::rods_of;
+using test::Trajectory;
+using test::trajectory_of;
 using test::until_time;
 
 // Rods of this state that overlap by more than `tolerance`.
@@ -50,10 +50,10 @@ TEST(Rods, HaveOneTrajectory) {
   for (const Scene& scene :
        {rods_of(120, 5, 0.15), rods_of(150, 0, 0.3), rods_and_spheres(60, 11)}) {
     const double time = 1.5;
-    const Course first = course_of(scene, loop_of("all-pairs", "lazy-heap"), time);
+    const Trajectory first = trajectory_of(scene, loop_of("all-pairs", "lazy-heap"), time);
     EXPECT_GT(first.collisions, 200u) << scene.species[0].name;
     for (const char* search : {"linked-lists", "linked-cells", "capsules"}) {
-      const Course other = course_of(scene, loop_of(search, "cell-calendar"), time);
+      const Trajectory other = trajectory_of(scene, loop_of(search, "cell-calendar"), time);
       EXPECT_EQ(other.hash, first.hash) << search << " " << scene.species[0].name;
       EXPECT_EQ(other.collisions, first.collisions);
     }
@@ -62,13 +62,13 @@ TEST(Rods, HaveOneTrajectory) {
 
 TEST(Rods, HaveOneTrajectoryOnThreads) {
   for (const Scene& scene : {rods_of(1500, 5, 0.1), rods_and_spheres(500, 22)}) {
-    const Course first = course_of(scene, loop_of("linked-cells", "tournament"), 0.6);
+    const Trajectory first = trajectory_of(scene, loop_of("linked-cells", "tournament"), 0.6);
     EXPECT_GT(first.collisions, 500u);
     for (const char* search : {"linked-cells", "capsules"}) {
       const auto make = [&](needlework::Run& run) {
         return test::parallel_loop(run, search, 3, {.sight = 0.6, .least = 1, .by_cost = false});
       };
-      EXPECT_EQ(course_of(scene, make, 0.6).hash, first.hash) << search;
+      EXPECT_EQ(trajectory_of(scene, make, 0.6).hash, first.hash) << search;
     }
   }
 }
@@ -207,8 +207,8 @@ TEST(Rods, BounceOffWallsByTheirCaps) {
   scene.forces.gravity = {0, 0, -1};
   scene.collisions.epsilon = 0.95;
   scene.collisions.tc = 1e-4;
-  const Course first = course_of(scene, loop_of("all-pairs", "lazy-heap"), 3);
-  EXPECT_EQ(course_of(scene, loop_of("capsules", "cell-calendar"), 3).hash, first.hash);
+  const Trajectory first = trajectory_of(scene, loop_of("all-pairs", "lazy-heap"), 3);
+  EXPECT_EQ(trajectory_of(scene, loop_of("capsules", "cell-calendar"), 3).hash, first.hash);
   Simulation gas(scene);
   gas.advance(until_time(3));
   const State state = gas.copy();
@@ -259,8 +259,8 @@ TEST(Rods, SpheresDoNotTurnWhenDriven) {
   ceiling.temperature = 2;
   scene.walls = {floor, ceiling};
   scene.driving.andersen = {.rate = 0.5, .temperature = 1.5};
-  const Course first = course_of(scene, loop_of("all-pairs", "lazy-heap"), 3);
-  EXPECT_EQ(course_of(scene, loop_of("capsules", "cell-calendar"), 3).hash, first.hash);
+  const Trajectory first = trajectory_of(scene, loop_of("all-pairs", "lazy-heap"), 3);
+  EXPECT_EQ(trajectory_of(scene, loop_of("capsules", "cell-calendar"), 3).hash, first.hash);
   scene.driving.kicks = {.every = 0.5, .translational = 0.1, .rotational = 0.2};
   Simulation gas(scene);
   gas.advance(until_time(3));

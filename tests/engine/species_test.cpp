@@ -83,7 +83,7 @@ TEST(TableOfSpecies, OfLengthAndMassOneChangesNoBit) {
           EXPECT_FALSE(run.effects.table);
           run.effects.table = true;
           const auto loop = make_loop(run, {.search = search, .calendar = "tournament"});
-          EXPECT_EQ(loop->advance(Limits(run, until)), Stop::collisions);
+          EXPECT_EQ(loop->advance(StopConditions(run, until)), Stop::collisions);
           EXPECT_EQ(run.tally.hash.hex(), simulation.trajectory_hash());
         }
       }
@@ -100,7 +100,7 @@ TEST(TableOfSpecies, OfLengthAndMassOneChangesNoBitOnThreads_long) {
     needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
     run.effects.table = true;
     const auto loop = test::parallel_loop(run, search, 3, test::short_phases);
-    EXPECT_EQ(loop->advance(Limits(run, until)), Stop::collisions);
+    EXPECT_EQ(loop->advance(StopConditions(run, until)), Stop::collisions);
     EXPECT_EQ(run.tally.hash.hex(), simulation.trajectory_hash()) << search;
     EXPECT_GT(run.tally.counters.phases, run.tally.counters.redone) << search;
   }

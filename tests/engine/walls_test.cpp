@@ -14,16 +14,16 @@
 #include "src/engine/initial_gas.h"
 #include "src/engine/make_loop.h"
 #include "src/engine/run.h"
-#include "tests/support/courses.h"
 #include "tests/support/parallel_loops.h"
 #include "tests/support/runs.h"
+#include "tests/support/trajectories.h"
 
 namespace needlework {
 namespace {
 
-using test::Course;
-using test::course_of;
 using test::loop_of;
+using test::Trajectory;
+using test::trajectory_of;
 using test::until_time;
 
 // A vibrated binary mixture under gravity, rough and inelastic, between walls on two axes.
@@ -71,7 +71,7 @@ TEST(WallsAndGravity, LetPairsSlideInASmallGas) {
   scene.walls = {{.axis = "z", .side = "both"}};
   needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
   const auto loop = make_loop(run, {.search = "linked-cells", .calendar = "tournament"});
-  ASSERT_EQ(loop->advance(Limits(run, until_time(20))), Stop::time);
+  ASSERT_EQ(loop->advance(StopConditions(run, until_time(20))), Stop::time);
   EXPECT_GT(run.tally.tc_collisions, 100u);
   EXPECT_GT(run.windows.mean_free_time(), 0.5);
   EXPECT_LT(run.windows.mean_free_time(), 5);
@@ -79,12 +79,12 @@ TEST(WallsAndGravity, LetPairsSlideInASmallGas) {
 
 TEST(WallsAndGravity, HaveOneTrajectory) {
   const Scene scene = shaken();
-  const Course first = course_of(scene, loop_of("all-pairs", "lazy-heap"), 5);
+  const Trajectory first = trajectory_of(scene, loop_of("all-pairs", "lazy-heap"), 5);
   EXPECT_GT(first.events, 300u);
   EXPECT_GT(first.collisions, 250u);
   for (const char* search : {"linked-lists", "linked-cells", "capsules"}) {
     for (const char* calendar : {"lazy-heap", "tournament", "cell-calendar"}) {
-      const Course other = course_of(scene, loop_of(search, calendar), 5);
+      const Trajectory other = trajectory_of(scene, loop_of(search, calendar), 5);
       EXPECT_EQ(other.hash, first.hash) << search << ", " << calendar;
       EXPECT_EQ(other.events, first.events);
     }
@@ -94,13 +94,13 @@ TEST(WallsAndGravity, HaveOneTrajectory) {
 TEST(WallsAndGravity, HaveOneTrajectoryOnThreads) {
   Scene scene = shaken(1200);
   scene.needles.box = {14, 10, 6};
-  const Course first = course_of(scene, loop_of("linked-cells", "tournament"), 1.5);
+  const Trajectory first = trajectory_of(scene, loop_of("linked-cells", "tournament"), 1.5);
   for (const char* search : {"linked-cells", "capsules"}) {
     for (const double sight : {1.6, 0.3}) {
       const auto make = [&](needlework::Run& run) {
         return test::parallel_loop(run, search, 3, {.sight = sight, .least = 1, .by_cost = false});
       };
-      EXPECT_EQ(course_of(scene, make, 1.5).hash, first.hash) << search << ", " << sight;
+      EXPECT_EQ(trajectory_of(scene, make, 1.5).hash, first.hash) << search << ", " << sight;
     }
   }
 }
@@ -123,12 +123,12 @@ Scene chute(std::uint64_t count = 160) {
 
 TEST(GravityAlongPeriodicAxes, HasOneTrajectory) {
   const Scene scene = chute();
-  const Course first = course_of(scene, loop_of("all-pairs", "lazy-heap"), 5);
+  const Trajectory first = trajectory_of(scene, loop_of("all-pairs", "lazy-heap"), 5);
   EXPECT_GT(first.events, 300u);
   EXPECT_GT(first.collisions, 250u);
   for (const char* search : {"linked-lists", "linked-cells", "capsules"}) {
     for (const char* calendar : {"tournament", "cell-calendar"}) {
-      const Course other = course_of(scene, loop_of(search, calendar), 5);
+      const Trajectory other = trajectory_of(scene, loop_of(search, calendar), 5);
       EXPECT_EQ(other.hash, first.hash) << search << ", " << calendar;
       EXPECT_EQ(other.events, first.events);
     }
@@ -138,12 +138,12 @@ TEST(GravityAlongPeriodicAxes, HasOneTrajectory) {
 TEST(GravityAlongPeriodicAxes, HasOneTrajectoryOnThreads) {
   Scene scene = chute(1200);
   scene.needles.box = {14, 10, 6};
-  const Course first = course_of(scene, loop_of("linked-cells", "tournament"), 1.5);
+  const Trajectory first = trajectory_of(scene, loop_of("linked-cells", "tournament"), 1.5);
   for (const char* search : {"linked-cells", "capsules"}) {
     const auto make = [&](needlework::Run& run) {
       return test::parallel_loop(run, search, 3, {.sight = 1.6, .least = 1, .by_cost = false});
     };
-    EXPECT_EQ(course_of(scene, make, 1.5).hash, first.hash) << search;
+    EXPECT_EQ(trajectory_of(scene, make, 1.5).hash, first.hash) << search;
   }
 }
 

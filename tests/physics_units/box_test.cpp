@@ -16,7 +16,7 @@ namespace {
 
 using test::Random;
 using test::Wide;
-using Place = Box::Vector;
+using Place = Vector;
 
 constexpr std::uint64_t seed_of_boxes = 4711;
 constexpr Place edges_of_box{2.5, 7.3, 100.1};

@@ -73,7 +73,7 @@ class Report : public testing::Test {
     return state;
   }
 
-  test::PageData page_of(std::vector<std::string> files, report::Limits limits = {}) const {
+  test::PageData page_of(std::vector<std::string> files, report::PageLimits limits = {}) const {
     for (std::string& file : files) file = path(file);
     report::write_report({files, path("page.html"), "", true, limits});
     return test::PageData(path("page.html"));
@@ -316,7 +316,7 @@ TEST_F(Report, HoldsAnObservableThatIsATime) {
 
 TEST_F(Report, ThinsFramesNeedlesAndSamplesAndSaysSo) {
   write_run("run.h5", "many", 100, 9);
-  report::Limits limits;
+  report::PageLimits limits;
   limits.needles = 10;
   limits.drawn = 40;
   limits.samples = 3;
@@ -343,7 +343,7 @@ TEST_F(Report, ThinsFramesNeedlesAndSamplesAndSaysSo) {
 
 TEST_F(Report, KeepsLargeGroupsWithinTheirBytes) {
   write_run("run.h5");
-  report::Limits limits;
+  report::PageLimits limits;
   limits.group_bytes = 2 * 2 * sizeof(double) + 1;  // two rows of a pair
   const test::PageData page = page_of({"run.h5"}, limits);
   EXPECT_EQ(page.json["sections"][0]["groups"]["pairs"]["rows"], 2);

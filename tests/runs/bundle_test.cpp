@@ -38,15 +38,15 @@ class Bundle : public testing::Test {
 };
 
 TEST_F(Bundle, OfAnEventThatCannotBeShowsItAgain) {
-  const Course course = PreparedRun(far_away(), false, "scene").drive(monitor);
-  ASSERT_TRUE(course.failure);
-  EXPECT_TRUE(course.failure->starts_with("needle 7 crosses more than")) << *course.failure;
+  const RunResult result = PreparedRun(far_away(), false, "scene").drive(monitor);
+  ASSERT_TRUE(result.failure);
+  EXPECT_TRUE(result.failure->starts_with("needle 7 crosses more than")) << *result.failure;
   const CheckpointFiles files(scene.output.file);
-  EXPECT_EQ(course.bundle, files.bundle());
-  Replay replay(course.bundle, 5);
+  EXPECT_EQ(result.bundle, files.bundle());
+  Replay replay(result.bundle, 5);
   const Replayed again = replay.drive(monitor);
   EXPECT_TRUE(again.same);
-  EXPECT_EQ(again.failure, course.failure);
+  EXPECT_EQ(again.failure, result.failure);
   for (const NumberedHappening& entry : again.last) {
     EXPECT_TRUE(entry.happening.event.first == 7 || entry.happening.event.second == 7);
   }
@@ -55,18 +55,18 @@ TEST_F(Bundle, OfAnEventThatCannotBeShowsItAgain) {
 // The state before it is saved, and the file is whole.
 TEST_F(Bundle, AStateBeforeAnEventThatCannotBeIsSaved) {
   PreparedRun run(far_away(), false, "scene");
-  const Course course = run.drive(monitor);
-  EXPECT_GT(course.last.collisions, 0u);
+  const RunResult result = run.drive(monitor);
+  EXPECT_GT(result.last.collisions, 0u);
   RunCheckpoint saved = CheckpointFiles(scene.output.file).latest().checkpoint;
-  const Course again = PreparedRun(saved).drive(monitor);
-  EXPECT_EQ(again.failure, course.failure);
+  const RunResult again = PreparedRun(saved).drive(monitor);
+  EXPECT_EQ(again.failure, result.failure);
   EXPECT_EQ(again.collisions, 0u) << "it fails at once";
-  EXPECT_EQ(again.last.collisions, course.last.collisions);
+  EXPECT_EQ(again.last.collisions, result.last.collisions);
   saved = CheckpointFiles(scene.output.file).latest().checkpoint;
-  saved.scene.until.time = course.last.time;
-  const Course shorter = PreparedRun(saved).drive(monitor);
+  saved.scene.until.time = result.last.time;
+  const RunResult shorter = PreparedRun(saved).drive(monitor);
   EXPECT_FALSE(shorter.failure) << *shorter.failure;
-  EXPECT_EQ(shorter.last.time, course.last.time);
+  EXPECT_EQ(shorter.last.time, result.last.time);
 }
 
 TEST_F(Bundle, OfARunInPiecesIsNamedInTheError) {
@@ -94,12 +94,12 @@ TEST_F(Bundle, OfAnyDefectIsKeptAndAReplayWithoutItPasses) {
   PreparedRun run(complete_scene(scene), false, "scene");
   run.advance({.time = {}, .collisions_per_needle = 2, .energy_ratio = {}, .wall_s = {}}, monitor);
   run.simulation().on_collision([](const Collision&) { throw std::logic_error("a defect"); });
-  const Course course = run.drive(monitor);
-  EXPECT_EQ(course.failure, "unexpected error: a defect");
-  EXPECT_EQ(course.last.collisions, 61u);
-  Replay replay(course.bundle, 5);
+  const RunResult result = run.drive(monitor);
+  EXPECT_EQ(result.failure, "unexpected error: a defect");
+  EXPECT_EQ(result.last.collisions, 61u);
+  Replay replay(result.bundle, 5);
   ASSERT_TRUE(replay.failure());
-  EXPECT_EQ(replay.failure()->message, course.failure);
+  EXPECT_EQ(replay.failure()->message, result.failure);
   const Replayed again = replay.drive(monitor);
   EXPECT_FALSE(again.failure || again.same);
   EXPECT_EQ(again.collisions, 62u);
@@ -152,10 +152,10 @@ TEST_F(Bundle, IsNotReplacedByAnErrorOfTheCaller) {
 
 TEST_F(Bundle, NeedsAStartThatIsKnown) {
   scene.output.checkpoint_every = 0;
-  const Course course = PreparedRun(far_away(), false, "scene").drive(monitor);
-  EXPECT_EQ(course.bundle, "");
-  EXPECT_TRUE(course.failure->ends_with("no bundle for needlework replay: its start is in no file"))
-      << *course.failure;
+  const RunResult result = PreparedRun(far_away(), false, "scene").drive(monitor);
+  EXPECT_EQ(result.bundle, "");
+  EXPECT_TRUE(result.failure->ends_with("no bundle for needlework replay: its start is in no file"))
+      << *result.failure;
 }
 
 }  // namespace

@@ -77,11 +77,11 @@ TEST_F(ContinuedRun, KeepsItsCourseOnlyIfItIsSavedAgain) {
   scene.collisions.epsilon = 1;
   RunCheckpoint saved = ended();
   saved.scene.until.collisions_per_needle = 300;
-  const Course with_file = PreparedRun(saved).drive(monitor);
+  const RunResult with_file = PreparedRun(saved).drive(monitor);
   EXPECT_GT(with_file.samples.size(), 2u);
   EXPECT_GT(with_file.system_rate.batches, 0);
   saved.scene.output.file.clear();
-  const Course without = PreparedRun(saved).drive(monitor);
+  const RunResult without = PreparedRun(saved).drive(monitor);
   EXPECT_TRUE(without.samples.empty());
   EXPECT_EQ(without.system_rate.batches, 0);
   EXPECT_EQ(without.last.collisions, with_file.last.collisions);

@@ -47,9 +47,9 @@ Scene scene_until(double collisions) {
 TEST(RunMonitor, IsShownTheProgressOfARunToItsEnd) {
   Watcher watcher(1000000);
   PreparedRun prepared(complete_scene(scene_until(10)), false, "scene");
-  const Course course = prepared.drive(watcher);
-  EXPECT_EQ(course.stop, Stop::collisions);
-  EXPECT_EQ(course.last.collisions, 250u);
+  const RunResult result = prepared.drive(watcher);
+  EXPECT_EQ(result.stop, Stop::collisions);
+  EXPECT_EQ(result.last.collisions, 250u);
   EXPECT_GT(watcher.shown, 5);
   EXPECT_GT(watcher.last_fraction, 0.3);
   EXPECT_EQ(watcher.cleared, 1);
@@ -59,10 +59,10 @@ TEST(RunMonitor, IsShownTheProgressOfARunToItsEnd) {
 TEST(RunMonitor, StopsARun) {
   Watcher watcher(20);
   PreparedRun prepared(complete_scene(scene_until(1e6)), false, "scene");
-  const Course course = prepared.drive(watcher);
-  EXPECT_EQ(course.stop, Stop::interrupted);
-  EXPECT_GE(course.last.collisions, 20u);
-  EXPECT_LT(course.last.collisions, 10000000u);
+  const RunResult result = prepared.drive(watcher);
+  EXPECT_EQ(result.stop, Stop::interrupted);
+  EXPECT_GE(result.last.collisions, 20u);
+  EXPECT_LT(result.last.collisions, 10000000u);
   EXPECT_EQ(watcher.cleared, 1);
 }
 

@@ -25,8 +25,8 @@ double length_of(const Vec3d& a) { return std::sqrt(dot(a, a)); }
 
 Sliding::Sliding(Gas& gas, const Parameters& parameters)
     : parameters_(parameters),
-      meetings_(
-          &gas.columns.add<Meetings>("meetings", {{}, Meetings::long_ago, Meetings::long_ago, 0})) {
+      last_touches_(&gas.columns.add<LastTouches>(
+          "meetings", {{}, LastTouches::long_ago, LastTouches::long_ago, 0})) {
   gas.let_slide();
 }
 
@@ -35,7 +35,7 @@ bool Sliding::is_crowded(const Gas& gas, const SlidingPair& pair, Time now, doub
   const auto is_with_another = [&](Needle i, Id other) {
     const Record& record = gas.records[i];
     if (record.is_sliding() && record.first_touch.partner != other) return true;
-    return gas.clock.difference(now, (*meetings_)[i].but(other)) < within;
+    return gas.clock.difference(now, (*last_touches_)[i].but(other)) < within;
   };
   return is_with_another(pair.first_needle, gas.ids[pair.second_needle]) ||
          is_with_another(pair.second_needle, gas.ids[pair.first_needle]);
@@ -44,7 +44,8 @@ bool Sliding::is_crowded(const Gas& gas, const SlidingPair& pair, Time now, doub
 // Whether one of the two is in contact, or has touched anything at this very instant.
 bool Sliding::is_strike(const Gas& gas, const SlidingPair& pair, Time now) const {
   const auto touches = [&](Needle i) {
-    return gas.records[i].is_sliding() || gas.clock.difference(now, (*meetings_)[i].with_last) == 0;
+    return gas.records[i].is_sliding() ||
+           gas.clock.difference(now, (*last_touches_)[i].with_last) == 0;
   };
   return touches(pair.first_needle) || touches(pair.second_needle);
 }
@@ -147,12 +148,13 @@ Sliding::Outcome Sliding::decided(const Gas& gas, const Due& due) const {
     epsilon = entry.epsilon;
   }
   out.crowded = crowded;
-  const std::uint32_t in_crowd = std::max((*meetings_)[a].in_crowd, (*meetings_)[b].in_crowd);
+  const std::uint32_t in_crowd =
+      std::max((*last_touches_)[a].in_crowd, (*last_touches_)[b].in_crowd);
   if (elastic || (crowded && in_crowd >= most_in_crowd)) epsilon = 1;
   out.raised = epsilon != rule.epsilon;
   if (out.are_bonded()) epsilon = 0;
-  const Meeting both{out.first.v, out.first.w, out.second.v, out.second.w,
-                     gas.body(a), gas.body(b), geometry,     side};
+  const CollidingPair both{out.first.v, out.first.w, out.second.v, out.second.w,
+                           gas.body(a), gas.body(b), geometry,     side};
   const Impact impact = collide<Surface::smooth>(both, {.epsilon = epsilon, .beta = -1});
   out.first.v = impact.v_first, out.first.w = impact.w_first;
   out.second.v = impact.v_second, out.second.w = impact.w_second;
@@ -190,8 +192,8 @@ void Sliding::settle(Gas& gas, Needle a, Needle b, const Shift& shift, Time now,
   } else {
     part(gas, a, b, shift, outcome.side);
   }
-  (*meetings_)[a].met(gas.ids[b], now, outcome.crowded);
-  (*meetings_)[b].met(gas.ids[a], now, outcome.crowded);
+  (*last_touches_)[a].met(gas.ids[b], now, outcome.crowded);
+  (*last_touches_)[b].met(gas.ids[a], now, outcome.crowded);
   if (outcome.cut_first) tally.cut(*outcome.cut_first);
   if (outcome.cut_second) tally.cut(*outcome.cut_second);
   tally.crowded += outcome.raised;

@@ -21,7 +21,7 @@
 namespace needlework {
 
 /// When a needle has touched others, in collisions and contacts, or walls.
-struct Meetings {
+struct LastTouches {
   static constexpr Id wall{0xffffffff};
 
   Id last;                     ///< the latest partner, or `wall`
@@ -43,7 +43,7 @@ struct Meetings {
   /// The latest time with any needle but this one, or a wall.
   Time but(Id partner) const { return last == partner ? others : with_last; }
 
-  friend void transfer(Archive& archive, Meetings& meetings) {
+  friend void transfer(Archive& archive, LastTouches& meetings) {
     archive(meetings.last.value, meetings.with_last, meetings.others, meetings.in_crowd);
   }
 };
@@ -93,10 +93,10 @@ class Sliding {
   /// now; nothing if it slides on no needle. An event of the pair is then due at once. [time]
   static std::optional<double> cut_by_event(const Gas& gas, Needle i, Time now);
   /// Notes that a needle has hit a wall.
-  void hit_wall(Needle i, Time now) { (*meetings_)[i].note(Meetings::wall, now); }
+  void hit_wall(Needle i, Time now) { (*last_touches_)[i].note(LastTouches::wall, now); }
   /// Notes that the contact of a needle is ended as the velocities of all are set.
   void let_go(Needle i, const Record& record, Time now) {
-    if (parameters_.elastic_strikes) (*meetings_)[i].note(record.first_touch.partner, now);
+    if (parameters_.elastic_strikes) (*last_touches_)[i].note(record.first_touch.partner, now);
   }
 
   double below() const { return parameters_.below; }
@@ -108,7 +108,7 @@ class Sliding {
   bool is_strike(const Gas& gas, const SlidingPair& pair, Time now) const;
 
   Parameters parameters_;
-  Column<Meetings>* meetings_;
+  Column<LastTouches>* last_touches_;
 };
 
 }  // namespace needlework

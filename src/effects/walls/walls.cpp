@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "kernels/course_wall.h"
+#include "kernels/trajectory_wall.h"
 #include "src/physics/director.h"
 #include "src/physics/vectors.h"
 #include "src/random/needle_random.h"
@@ -97,10 +97,10 @@ SourceEvent Walls::next(const Gas& gas, Needle i, Time now, Time until) const {
   const Record& record = gas.records[i];
   SourceEvent out;
   Time latest = until;
-  std::optional<NeedleCourse> course;
+  std::optional<NeedleTrajectory> trajectory;
   if (gas.slides && record.is_sliding()) {
     const Id id = gas.ids[i];
-    course.emplace(gas, id, record, gas.slides->of(id, record), 0);
+    trajectory.emplace(gas, id, record, gas.slides->of(id, record), 0);
   }
   for (std::size_t n = 0; n < walls_.size(); ++n) {
     const Wall& wall = walls_[n];
@@ -119,8 +119,9 @@ SourceEvent Walls::next(const Gas& gas, Needle i, Time now, Time until) const {
                                          .resolution = gas.clock.resolution()};
     const double from = gas.clock.difference(now, record.time),
                  to = gas.clock.difference(latest, record.time);
-    const kernels::WallContact contact = course ? course_wall_contact(*course, approach, from, to)
-                                                : first_wall_contact(approach, from, to);
+    const kernels::WallContact contact =
+        trajectory ? trajectory_wall_contact(*trajectory, approach, from, to)
+                   : first_wall_contact(approach, from, to);
     if (!contact.found) continue;
     const Time time = std::max(now, gas.clock.add(record.time, contact.elapsed));
     if (time > latest || (out.time != Time::never() && time == out.time)) continue;

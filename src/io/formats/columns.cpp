@@ -13,13 +13,12 @@
 
 #include "needlework/error.h"
 #include "src/box/box.h"
+#include "src/box/vector.h"
 #include "src/io/decimal.h"
 #include "src/io/needle_check.h"
 
 namespace needlework::io {
 namespace {
-
-using Vector = std::array<double, 3>;
 
 constexpr std::int64_t most_images = std::numeric_limits<std::int32_t>::max();
 
@@ -199,7 +198,7 @@ void NeedleReader::read_position(const Row& row) {
 }
 
 // As a quaternion says it, or a vector, of length 1 but for a rounding.
-NeedleReader::Vector NeedleReader::read_director(const Row& row, double& deviation) {
+Vector NeedleReader::read_director(const Row& row, double& deviation) {
   if (columns_.orientation) {
     const Vector u = read_vector(row, *columns_.orientation, "orientation");
     const double off = std::abs(length_of(u) - 1);

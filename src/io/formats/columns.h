@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "src/box/vector.h"
 #include "src/io/formats/configuration.h"
 #include "src/io/formats/lines.h"
 
@@ -73,7 +74,6 @@ class NeedleReader {
   void finish(const std::string& path);
 
  private:
-  using Vector = std::array<double, 3>;
   struct SlowRotation {
     Row place;     // without its fields
     double along;  // what was projected away [1 / time]

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "needlework/error.h"
+#include "src/box/vector.h"
 #include "src/io/formats/dynamo.h"
 #include "src/io/formats/dynamo_parts.h"
 #include "src/io/formats/input_text.h"
@@ -14,8 +15,6 @@
 
 namespace needlework::io::dynamo {
 namespace {
-
-using Vector = std::array<double, 3>;
 
 constexpr const char* version = "1.5.0";
 

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <iterator>
 
+#include "src/box/vector.h"
 #include "src/io/formats/dynamo_parts.h"
 #include "src/io/formats/lines.h"
 
 namespace needlework::io::dynamo {
 namespace {
-
-using Vector = std::array<double, 3>;
 
 // Along which axes the boundary is periodic.
 std::array<bool, 3> read_boundary(const XmlElement& simulation) {

@@ -5,14 +5,13 @@
 #include <string_view>
 
 #include "needlework/error.h"
+#include "src/box/vector.h"
 #include "src/io/formats/dynamo.h"
 #include "src/io/formats/rod.h"
 #include "src/io/formats/text_file.h"
 
 namespace needlework::io {
 namespace {
-
-using Vector = std::array<double, 3>;
 
 // Text in an attribute.
 std::string escaped(std::string_view text) {

@@ -9,6 +9,7 @@
 
 #include "needlework/error.h"
 #include "src/box/box.h"
+#include "src/box/vector.h"
 #include "src/io/formats/text_file.h"
 #include "src/io/formats/vtu.h"
 #include "src/io/needle_check.h"
@@ -18,8 +19,6 @@ namespace needlework::io {
 namespace {
 
 namespace fs = std::filesystem;
-using Vector = std::array<double, 3>;
-
 constexpr std::uint8_t vtk_line = 3;
 
 std::vector<double> flat(const std::vector<Vector>& vectors) {

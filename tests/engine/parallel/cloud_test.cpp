@@ -97,7 +97,7 @@ TEST(Loops, MayFollowEachOther) {
   truth.advance(until_collisions(end));
 
   needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
-  Limits limits(run, until_collisions(end));
+  StopConditions limits(run, until_collisions(end));
   std::optional<Stop> stop;
   for (int n = 0; !stop; ++n) {
     std::unique_ptr<Loop> loop;
@@ -155,7 +155,7 @@ TEST(Loops, MayFollowEachOtherAtOneInstant) {
     const char* search = std::array{"linked-cells", "capsules", "linked-lists"}[n % 3];
     const std::unique_ptr<Loop> loop =
         make_loop(run, {.search = search, .calendar = "tournament", .setup = setup});
-    Limits limits(run, until_collisions(1e6));
+    StopConditions limits(run, until_collisions(1e6));
     limits.collisions = static_cast<double>(n + 1);
     ASSERT_EQ(loop->advance(limits), Stop::collisions);
   }
@@ -182,7 +182,7 @@ TEST(Loops, CountTogetherWhatHappensAtOneInstant_long) {
   EXPECT_NE(expected.find("collisions at one instant"), std::string::npos) << expected;
 
   needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
-  Limits limits(run, until);
+  StopConditions limits(run, until);
   const std::string message = failure([&] {
     for (;;) {
       const auto loop = make_loop(run, {.search = "linked-lists", .calendar = "tournament"});
@@ -198,7 +198,7 @@ TEST(Loops, ContinueWhereOthersStopped) {
   const Scene scene = test::scene_of(1000, 11);
   const auto searches_of_half = [&](bool by_another) {
     needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
-    Limits limits(run, until_collisions(40));
+    StopConditions limits(run, until_collisions(40));
     limits.pause = 10000;
     const auto make = [&] {
       return make_loop(run, {.search = "linked-cells", .calendar = "tournament"});

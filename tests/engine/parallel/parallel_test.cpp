@@ -229,7 +229,7 @@ TEST(Parallel, RollsBackPhasesOfRareGasesCorrectly) {
     const Tally& tally = run.tally;
     for (int n = 1; n <= ends; ++n) {
       const Scene::Until until{.energy_ratio = std::pow(0.85, n)};
-      ASSERT_EQ(loop->advance(Limits(run, until)), truth.advance(until));
+      ASSERT_EQ(loop->advance(StopConditions(run, until)), truth.advance(until));
       ASSERT_EQ(tally.hash.hex(), truth.trajectory_hash()) << threads << " threads, end " << n;
     }
     EXPECT_GT(tally.counters.phases, 2 * tally.counters.redone);
@@ -263,7 +263,7 @@ TEST(Parallel, HasTheSameTrajectoryForFewNeedles_long) {
     for (const int threads : {2, 3, 8}) {
       needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
       const auto loop = test::parallel_loop(run, "capsules", threads, test::short_phases, {});
-      EXPECT_EQ(loop->advance(Limits(run, until)), Stop::collisions);
+      EXPECT_EQ(loop->advance(StopConditions(run, until)), Stop::collisions);
       const Tally& tally = run.tally;
       EXPECT_EQ(tally.hash.hex(), truth.trajectory_hash()) << c.count << ", " << threads;
       EXPECT_GT(tally.counters.phases, tally.counters.redone) << c.count << ", " << threads;
@@ -328,7 +328,7 @@ TEST(Parallel, IsInterruptedAfterAllItsRecords) {
     run.listeners.collision = [&](const Collision&) { run.interrupted = true; };
     for (int n = 0; n < 8; ++n) {
       run.interrupted = false;
-      ASSERT_EQ(loop->advance(Limits(run, until)), Stop::interrupted);
+      ASSERT_EQ(loop->advance(StopConditions(run, until)), Stop::interrupted);
       for (const Record& record : run.gas.records) ASSERT_LE(record.time, run.now) << threads;
     }
     EXPECT_GT(run.tally.counters.phases, run.tally.counters.redone);

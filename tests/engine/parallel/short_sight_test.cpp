@@ -30,7 +30,7 @@ double redone(const Scene& scene, const char* search, double sight, const Scene:
   for (const int threads : {2, 3, 8}) {
     Run run(scene, make_gas(scene, draw_initial_state(scene)));
     const auto loop = test::parallel_loop(run, search, threads, {.sight = sight, .by_cost = false});
-    EXPECT_EQ(loop->advance(Limits(run, until)), Stop::collisions);
+    EXPECT_EQ(loop->advance(StopConditions(run, until)), Stop::collisions);
     EXPECT_EQ(run.tally.hash.hex(), truth) << threads << " threads";
     redone += static_cast<double>(run.tally.counters.redone);
     phases += static_cast<double>(run.tally.counters.phases);

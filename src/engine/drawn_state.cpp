@@ -1,5 +1,5 @@
 // Draws initial states: needles at once, rods of finite width where there is room for them.
-#include "src/engine/initial_state.h"
+#include "src/engine/drawn_state.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@
 #include "src/physics/vectors.h"
 #include "src/scene/check.h"
 #include "src/scene/confinement.h"
-#include "src/scene/initial_state.h"
+#include "src/scene/drawing.h"
 #include "src/scene/rod_room.h"
 #include "src/scene/scene_values.h"
 

@@ -1,5 +1,5 @@
 // First contacts of needles of which no more is known than where they are and how fast they are.
-#include "kernels/course_contact.h"
+#include "kernels/trajectory_contact.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ namespace needlework::kernels {
 namespace {
 
 /// A needle that moves in a straight line.
-class StraightCourse final : public Course {
+class StraightCourse final : public Trajectory {
  public:
   explicit StraightCourse(const BodyState& begin) : begin_(begin) {
     lasts = 1;
@@ -28,7 +28,7 @@ Contact fall(double height, double velocity, const Touch& touch) {
   const StraightCourse first({{0, 0, height}, {0, 0, -velocity}, {1, 0, 0}, {}});
   const StraightCourse second({{0.1, 0.2, 0}, {}, {0, 1, 0}, {}});
   EvaluationCounters counters;
-  return course_contact({first, second, {}, 0.5, 0.5, touch, 1e-12}, 0, 1, counters);
+  return trajectory_contact({first, second, {}, 0.5, 0.5, touch, 1e-12}, 0, 1, counters);
 }
 
 // Needles so near that their side is carried from older records are not yet in contact.

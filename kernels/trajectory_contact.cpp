@@ -1,4 +1,4 @@
-#include "kernels/course_contact.h"
+#include "kernels/trajectory_contact.h"
 
 #include <cmath>
 #include <limits>
@@ -22,9 +22,9 @@ struct Relation {
   double f, df;
 };
 
-class CourseSearch {
+class TrajectorySearch {
  public:
-  CourseSearch(const CoursePair& pair, EvaluationCounters& counters)
+  TrajectorySearch(const TrajectoryPair& pair, EvaluationCounters& counters)
       : pair_(pair),
         counters_(counters),
         reach_(pair.half_first + pair.half_second),
@@ -137,31 +137,31 @@ class CourseSearch {
     return true;
   }
 
-  const CoursePair& pair_;
+  const TrajectoryPair& pair_;
   EvaluationCounters& counters_;
   double reach_, speed_, turning_, offset_ = 0, from_ = 0, until_ = 0;
 };
 
 }  // namespace
 
-Contact course_contact(const CoursePair& pair, double from, double until,
-                       EvaluationCounters& counters) {
-  return CourseSearch(pair, counters).run(from, until);
+Contact trajectory_contact(const TrajectoryPair& pair, double from, double until,
+                           EvaluationCounters& counters) {
+  return TrajectorySearch(pair, counters).run(from, until);
 }
 
-double course_gap(const CoursePair& pair, double s) {
+double trajectory_gap(const TrajectoryPair& pair, double s) {
   EvaluationCounters ignored;
-  return CourseSearch(pair, ignored).at(s).f;
+  return TrajectorySearch(pair, ignored).at(s).f;
 }
 
-int course_side_after(const CoursePair& pair) {
+int trajectory_side_after(const TrajectoryPair& pair) {
   EvaluationCounters ignored;
-  return sign_of_number(CourseSearch(pair, ignored).at(0).df);
+  return sign_of_number(TrajectorySearch(pair, ignored).at(0).df);
 }
 
-ContactGeometry course_geometry(const CoursePair& pair, double s) {
+ContactGeometry trajectory_geometry(const TrajectoryPair& pair, double s) {
   EvaluationCounters ignored;
-  const Relation here = CourseSearch(pair, ignored).at(s);
+  const Relation here = TrajectorySearch(pair, ignored).at(s);
   const double square = dot(here.x, here.x);
   ContactGeometry out;
   out.u_first = here.u1;

@@ -1,5 +1,5 @@
-// First contacts of tips with walls on any course: those of free flights are known in quad.
-#include "kernels/course_wall.h"
+// First contacts of tips with walls on any trajectory: those of free flights are known in quad.
+#include "kernels/trajectory_wall.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ using test::WallCase;
 using test::WallFamily;
 
 // The flight of a case as a course of which no more is known than of any other.
-class FlightCourse final : public Course {
+class FlightCourse final : public Trajectory {
  public:
   FlightCourse(const WallCase& of, double until) : flight_(of.flight) {
     double* pull[] = {&gravity_.x, &gravity_.y, &gravity_.z};
@@ -45,8 +45,8 @@ TEST(CourseWall, IsThatOfTheOracleInEveryFamily) {
     for (int i = 0; i < 500; ++i) {
       const WallCase a = drawn.draw(family);
       const double to = 3;
-      const FlightCourse course(a, to);
-      const WallContact found = course_wall_contact(course, a.approach, 0, to);
+      const FlightCourse trajectory(a, to);
+      const WallContact found = trajectory_wall_contact(trajectory, a.approach, 0, to);
       const test::WallTruth truth = first_wall_contact_in_quad(a, to);
       if (truth.found && std::abs(truth.time - to) < 1e-9) continue;
       // Double cannot decide whether a tip grazes to less than its rounding, nor when it does.
@@ -54,7 +54,7 @@ TEST(CourseWall, IsThatOfTheOracleInEveryFamily) {
         const WallContact deeper = [&] {
           WallCase other = a;
           other.approach.wall.place += 1e-13 * a.approach.wall.normal;
-          return course_wall_contact(course, other.approach, 0, to);
+          return trajectory_wall_contact(trajectory, other.approach, 0, to);
         }();
         EXPECT_TRUE(deeper.found) << i;
         continue;
@@ -80,18 +80,18 @@ TEST(CourseWall, DoesNotDependOnWhenItIsAskedFor) {
   for (int n = 0; n < 300; ++n) {
     const WallCase a = drawn.draw(static_cast<WallFamily>(n % 4));
     const double to = 6;
-    const FlightCourse course(a, to);
-    const WallContact found = course_wall_contact(course, a.approach, 0, to);
+    const FlightCourse trajectory(a, to);
+    const WallContact found = trajectory_wall_contact(trajectory, a.approach, 0, to);
     const double latest = found.found ? found.elapsed : to;
     for (const double share : {0.1, 0.5, 0.99, 1.0}) {
-      const WallContact again = course_wall_contact(course, a.approach, share * latest, to);
+      const WallContact again = trajectory_wall_contact(trajectory, a.approach, share * latest, to);
       ASSERT_EQ(again.found, found.found) << n;
       ASSERT_EQ(again.elapsed, found.elapsed) << n;
       ASSERT_EQ(again.tip, found.tip) << n;
     }
     if (!found.found) continue;
-    EXPECT_EQ(course_wall_contact(course, a.approach, 0, latest).elapsed, latest);
-    EXPECT_FALSE(course_wall_contact(course, a.approach, 0, latest * (1 - 1e-9)).found);
+    EXPECT_EQ(trajectory_wall_contact(trajectory, a.approach, 0, latest).elapsed, latest);
+    EXPECT_FALSE(trajectory_wall_contact(trajectory, a.approach, 0, latest * (1 - 1e-9)).found);
   }
 }
 
@@ -109,8 +109,8 @@ TEST(CourseWall, ContinuesTheHeightOfATipAtTheWall) {
       a.flight.r = {0, 0, 0.5 + off};
       const auto with_speed = [&](double speed) {
         a.flight.v = {0, 0, speed};
-        const FlightCourse course(a, 10);
-        return course_wall_contact(course, a.approach, 0, 10);
+        const FlightCourse trajectory(a, 10);
+        return trajectory_wall_contact(trajectory, a.approach, 0, 10);
       };
       for (const double speed : {1.0, 1e-3, 1e-6}) {
         EXPECT_NEAR(with_speed(speed).elapsed, speed, 1e-9 * speed + 4e-16 / speed) << off;
@@ -125,7 +125,7 @@ TEST(CourseWall, ContinuesTheHeightOfATipAtTheWall) {
   beyond.approach.wall.axis = 2;
   beyond.flight.u = {0, 0, 1};
   beyond.flight.r = {0, 0, 0.4999};
-  EXPECT_TRUE(course_wall_contact(FlightCourse(beyond, 1), beyond.approach, 0, 1).across);
+  EXPECT_TRUE(trajectory_wall_contact(FlightCourse(beyond, 1), beyond.approach, 0, 1).across);
 }
 
 }  // namespace

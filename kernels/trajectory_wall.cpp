@@ -1,4 +1,4 @@
-#include "kernels/course_wall.h"
+#include "kernels/trajectory_wall.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,18 +19,19 @@ struct TipHeight {
 };
 
 // The contact of one tip.
-class CourseTip {
+class TrajectoryTip {
  public:
-  CourseTip(const Course& course, const WallApproach& approach, int tip)
-      : course_(course),
+  TrajectoryTip(const Trajectory& trajectory, const WallApproach& approach, int tip)
+      : trajectory_(trajectory),
         given_(approach),
         sign_(approach.wall.normal),
         arm_(tip == 0 ? approach.half : -approach.half) {
     const double rate = approach.wall.amplitude > 0 ? whole_turn * approach.wall.frequency : 0;
     const double swing = approach.wall.amplitude * rate;
-    speed_ = (course.speed + approach.half * course.turning + swing) * roundup;
-    const double turned = approach.half * (course.turning * course.turning + course.turning_faster);
-    bend_ = (course.acceleration + turned + swing * rate) * roundup;
+    speed_ = (trajectory.speed + approach.half * trajectory.turning + swing) * roundup;
+    const double turned =
+        approach.half * (trajectory.turning * trajectory.turning + trajectory.turning_faster);
+    bend_ = (trajectory.acceleration + turned + swing * rate) * roundup;
   }
 
   // Of a tip that has just hit the wall, or is there to within rounding, the height is continued
@@ -38,7 +39,7 @@ class CourseTip {
   enum class Start { above, leaves, hits, across };
   Start start(bool touching) {
     const TipHeight first = at(0);
-    const double size = std::abs(component(course_.at(0).r, given_.wall.axis)) + given_.half;
+    const double size = std::abs(component(trajectory_.at(0).r, given_.wall.axis)) + given_.half;
     if (!touching && first.h > 0x1p-48 * size) return Start::above;
     const double within =
         given_.tolerance + 4 * given_.resolution * speed_ + place_noise * given_.half;
@@ -50,12 +51,12 @@ class CourseTip {
     return Start::leaves;
   }
 
-  // After start(): the first contact between 0 and the end of the course; infinite if there is none
-  // from `from` up to `to`.
+  // After start(): the first contact between 0 and the end of the trajectory; infinite if there is
+  // none from `from` up to `to`.
   double first(double from, double to) {
     from_ = from;
     until_ = to;
-    const double last = course_.lasts;
+    const double last = trajectory_.lasts;
     double out = INFINITY;
     if (last > 0) search(0, last, 0, out);
     return out;
@@ -64,7 +65,7 @@ class CourseTip {
  private:
   TipHeight at(double s) const {
     const int axis = given_.wall.axis;
-    const BodyState there = course_.at(s);
+    const BodyState there = trajectory_.at(s);
     const WallSurface surface = surface_at(
         given_.wall, given_.turns + DoubleDouble(given_.wall.frequency) * DoubleDouble(s));
     const double place = component(there.r, axis) + arm_ * component(there.u, axis);
@@ -104,7 +105,7 @@ class CourseTip {
         [](double h) { return h < 0; });
   }
 
-  const Course& course_;
+  const Trajectory& trajectory_;
   const WallApproach& given_;
   const double sign_, arm_;
   double speed_, bend_;
@@ -112,26 +113,27 @@ class CourseTip {
   bool starts_ = false;
 };
 
-// Whether no tip comes to the wall while the course is known. That is so for most needles.
-bool stays_away(const Course& course, const WallApproach& approach) {
+// Whether no tip comes to the wall while the trajectory is known. That is so for most needles.
+bool stays_away(const Trajectory& trajectory, const WallApproach& approach) {
   const WallPlane& wall = approach.wall;
-  const double height = wall.normal * (component(course.at(0).r, wall.axis) - wall.place);
-  const double near = approach.half + std::max(wall.amplitude, 0.0) + course.speed * course.lasts;
+  const double height = wall.normal * (component(trajectory.at(0).r, wall.axis) - wall.place);
+  const double near =
+      approach.half + std::max(wall.amplitude, 0.0) + trajectory.speed * trajectory.lasts;
   return height > near * (1 + 0x1p-40) + 0x1p-40 * std::abs(height);
 }
 
 }  // namespace
 
-WallContact course_wall_contact(const Course& course, const WallApproach& approach, double from,
-                                double to) {
+WallContact trajectory_wall_contact(const Trajectory& trajectory, const WallApproach& approach,
+                                    double from, double to) {
   WallContact out;
-  if (stays_away(course, approach)) return out;
+  if (stays_away(trajectory, approach)) return out;
   for (int tip = 0; tip < 2; ++tip) {
     const bool touching = approach.touching >> tip & 1;
-    CourseTip search(course, approach, tip);
-    const CourseTip::Start start = search.start(touching);
-    if (start == CourseTip::Start::across) return {.found = true, .tip = tip, .across = true};
-    const double at = start == CourseTip::Start::hits ? 0 : search.first(from, to);
+    TrajectoryTip search(trajectory, approach, tip);
+    const TrajectoryTip::Start start = search.start(touching);
+    if (start == TrajectoryTip::Start::across) return {.found = true, .tip = tip, .across = true};
+    const double at = start == TrajectoryTip::Start::hits ? 0 : search.first(from, to);
     if (std::isinf(at) || (out.found && at >= out.elapsed)) continue;
     out.found = true;
     out.elapsed = to = at;

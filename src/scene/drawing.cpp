@@ -1,5 +1,5 @@
 // Draws initial states: the equilibrium of an ideal gas in centres, directors and velocities.
-#include "src/scene/initial_state.h"
+#include "src/scene/drawing.h"
 
 #include <algorithm>
 #include <array>
@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "src/box/vector.h"
 #include "src/composition/convex_body.h"
 #include "src/machine/stop_request.h"
 #include "src/random/needle_random.h"
@@ -19,8 +20,6 @@
 
 namespace needlework {
 namespace {
-
-using Vector = std::array<double, 3>;
 
 // A sum with a running correction (Neumaier), so that a sum of a million terms loses no digits.
 class Sum {
