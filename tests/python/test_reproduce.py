@@ -84,7 +84,8 @@ class SmallPaper(InAFolder):
 
     def assert_equal_to_the_committed(self, rows):
         """Trajectories are the same everywhere, and so are the numbers, but for the rounding of
-        sums. The file is of the analysis in C++ that this one replaced."""
+        sums. The file is of the analysis in C++ that this one replaced, but for D and D_R of the
+        liquid, whose integrals are more exact now; test_reproduce_equation.py has known ones."""
         committed = {}
         for line in (HERE / "small_paper_claims.txt").read_text().splitlines():
             if not line.startswith("#"):

@@ -18,11 +18,11 @@ from .runs import FinishedRun, PaperRuns, Point
 LAST = 1 / 4
 """Share of the time of a run up to which lags are used, so that each has several starting times."""
 
-SLOPE_FROM = 1 / 8
-"""Share of the time of a run from which on memory is taken to fall exponentially."""
-
 NOISE = 0.01
-"""Share of its start below which a correlation of velocities is noise."""
+"""Share of its start below which a correlation of velocities is taken for noise."""
+
+REVERSED = -0.05
+"""Share of its start below which a correlation has changed its sign and is not noise."""
 
 SEPARATED = 12.0
 """n L^3 from which on directors turn much more slowly than angular velocities change: D_R is the
@@ -192,14 +192,20 @@ class Transport(Values):
 def transport(run: FinishedRun) -> Transport:
     """Collision rate, diffusion constants and anisotropy."""
     curve, time = correlations(run), run.series.time[-1]
-    late = curve.lag >= SLOPE_FROM * time
-    # Two directions across. Their correlation becomes negative and has no tail of its own.
+    # Where velocities have long been forgotten, further lags would add noise only.
+    used = curve.lag <= 2 * curve.lag[_end_of_memory(curve.velocity) - 1]
+    lag, along, across = (values[used] for values in (
+        curve.lag, curve.velocity_parallel, curve.velocity_perpendicular))
+    turns = (along < REVERSED * along[0]).any()
+    # Two directions across. Their correlation becomes negative and has no tail of its own. So does
+    # that along the director in thin gases, where needles turn round before they collide.
     return Transport({
         "rate": run.collisions[-1] / time,
-        "d": _memory(curve.lag, curve.velocity, late) / 3,
-        "d_parallel": _memory(curve.lag, curve.velocity_parallel, late),
-        "d_perpendicular": _integral(curve.lag, curve.velocity_perpendicular) / 2,
-        "d_rot": _rotational_diffusion(run, curve, late),
+        "d": _memory(curve.lag, curve.velocity) / 3,
+        "d_parallel": (_integral(lag, along) if turns
+                       else _memory(curve.lag, curve.velocity_parallel)),
+        "d_perpendicular": _integral(lag, across) / 2,
+        "d_rot": _rotational_diffusion(run, curve),
         "anisotropy": float(np.max(curve.parallel[1:] / (curve.perpendicular[1:] / 2))),
     })
 
@@ -216,7 +222,7 @@ class Studied(NamedTuple):
         return cls(point, [transport(run) for run in point.runs])
 
 
-def _rotational_diffusion(run: FinishedRun, curve: Correlations, late: np.ndarray) -> float:
+def _rotational_diffusion(run: FinishedRun, curve: Correlations) -> float:
     gas = run.conditions
     if gas.density < SEPARATED:
         # Longer than any memory; further on there is only noise.
@@ -225,23 +231,38 @@ def _rotational_diffusion(run: FinishedRun, curve: Correlations, late: np.ndarra
         return _integral(curve.lag[used], curve.angular_velocity[used]) / 2
     high, low = TURNED
     turned = (curve.p1 <= high) & (curve.p1 >= low)
-    chosen = turned if np.count_nonzero(turned) >= 3 else late & (curve.p1 > 0)
+    chosen = turned if np.count_nonzero(turned) >= 3 else _late(curve.lag) & (curve.p1 > 0)
     return -slope(curve.lag[chosen], np.log(curve.p1[chosen])) / 2
 
 
 def _integral(x: np.ndarray, y: np.ndarray) -> float:
-    """By the trapezoidal rule."""
-    return float(np.sum(np.diff(x) * (y[1:] + y[:-1]) / 2))
+    """By cubic polynomials through the points, with slopes of the parabolas through three of them.
+    Distances between lags grow with the lag, so that the trapezoidal rule gives an exponential
+    function 0.4 % too much."""
+    slopes = np.gradient(y, x, edge_order=2)
+    return float(np.sum(np.diff(x) * (y[1:] + y[:-1]) / 2 - np.diff(x)**2 * np.diff(slopes) / 12))
 
 
-def _memory(lag: np.ndarray, correlation: np.ndarray, late: np.ndarray) -> float:
-    """The integral of what decays to 0 from above: until only noise is left, or over all lags and,
-    beyond them, an exponential function that goes on as in the second half of them."""
-    share = correlation / correlation[0]
-    if (share < NOISE).any():
-        end = int(np.argmax(share < NOISE)) + 1
-        return _integral(lag[:end], correlation[:end])
-    rate = -slope(lag[late], np.log(share[late]))
+def _late(lag: np.ndarray) -> np.ndarray:
+    """Which lags are in the second half, where memory is taken to fall exponentially."""
+    return lag >= lag[-1] / 2
+
+
+def _end_of_memory(correlation: np.ndarray) -> int:
+    """How many lags there are before the first at which only noise is left."""
+    noise = correlation < NOISE * correlation[0]
+    return int(np.argmax(noise)) if noise.any() else len(correlation)
+
+
+def _memory(lag: np.ndarray, correlation: np.ndarray) -> float:
+    """The integral of what decays to 0 from above. It is taken until only noise is left, or over all
+    lags, and continued by an exponential function with the rate of the last factor of ten, or of the
+    second half of all lags: without that, it would end up to a percent too early."""
+    end = _end_of_memory(correlation)
+    is_over = end < len(lag)
+    lag, correlation = lag[:end], correlation[:end]
+    late = correlation < 10 * NOISE * correlation[0] if is_over else _late(lag)
+    rate = -slope(lag[late], np.log(correlation[late]))
     last = np.exp(np.mean(np.log(correlation[late])) - rate * (lag[-1] - lag[late].mean()))
     return _integral(lag, correlation) + float(last / rate)
 
