@@ -4,7 +4,6 @@
 #include <needlework/predict.h>
 #include <needlework/scene.h>
 #include <needlework/simulation.h>
-#include <needlework/theory.h>
 
 #include <cmath>
 #include <cstdint>
@@ -41,6 +40,6 @@ int main() {
   const bool right =
       std::abs(time - 2. / 3) < 1e-15 && stop == needlework::Stop::collisions && seen == 50 &&
       totals.collisions == 50 && lost > 0 && std::abs(50 * totals.energy - expected) < 1e-10 &&
-      simulation.copy().size() == 50 && needlework::theory::collision_rate(0.4, {1, 1}, 6) > 0;
+      simulation.copy().size() == 50;
   return right ? 0 : 1;
 }
