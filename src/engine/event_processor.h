@@ -17,7 +17,9 @@
 
 #include "needlework/error.h"
 #include "src/calendar/any_calendar.h"
+#include "src/effects/sliding/sliding_events.h"
 #include "src/engine/collapse.h"
+#include "src/engine/pair_collisions.h"
 #include "src/engine/pair_predictor.h"
 #include "src/engine/rollback_log.h"
 #include "src/engine/run.h"
@@ -40,7 +42,8 @@ class EventProcessor {
         search_(search),
         calendar_(calendar),
         tally_(tally),
-        predictor_(model, tally.counters) {}
+        predictor_(model, tally.counters),
+        pair_events_(run, model) {}
 
   Time now() const { return predictor_.now; }
   void set_now(Time time) { predictor_.now = time; }
@@ -101,10 +104,11 @@ class EventProcessor {
   template <class Renew>
   Shift replace_record(Needle i, Renew&& renew);
   void horizon(Needle i);
-  using Outcome = std::conditional_t<M::has_sliding, Sliding::Outcome, PairOutcome>;
+  using PairEvents =
+      std::conditional_t<M::has_sliding, SlidingPairEvents<Run, M>, PairCollisions<M>>;
   struct PairEvent {
     kernels::ContactGeometry contact;
-    Outcome outcome;
+    typename PairEvents::Outcome outcome;
     double virial = 0;  ///< r12 . dp, where bodies have a distance [energy]
   };
   PairEvent pair_event(const Event& event);
@@ -112,11 +116,8 @@ class EventProcessor {
   // A separate function, so that a test can inspect the machine code that an effect adds.
   [[gnu::noinline]] void meet(const Event& event);
   void count(const PairEvent& event, Needle a, Needle b);
-  void report_pair(Happening& happening, const Outcome& outcome, Needle a, Needle b);
-  [[noreturn, gnu::noinline]] void refuse_parallel(const Event& event) const;
   [[gnu::noinline]] void happen(const Event& event);
   void consider_sources(Needle i, Event& best) const;
-  bool by_contact_time(Needle a, Needle b) const;
   void count_at_instant(Needle a, Needle b);
   void set_time(Collision& report) const {
     report.epoch = now().epoch;
@@ -135,6 +136,7 @@ class EventProcessor {
   EventSink& calendar_;
   Tally& tally_;
   PairPredictor<M> predictor_;
+  PairEvents pair_events_;
   std::vector<std::byte> columns_before_;  ///< values of a needle before an event of a source
 };
 
@@ -180,13 +182,6 @@ Shift EventProcessor<S, M>::replace_record(Needle i, Renew&& renew) {
   return predictor_.replace(i, renew);
 }
 
-template <Search S, Model M>
-bool EventProcessor<S, M>::by_contact_time(Needle a, Needle b) const {
-  if (!M::has_effects || !run_.contact_time_rule) return false;
-  const ContactTimeRule& rule = *run_.contact_time_rule;
-  return rule.is_recent(a, now(), run_.contact_time) || rule.is_recent(b, now(), run_.contact_time);
-}
-
 // What an event makes of a pair, from the records of both, which it then replaces: nothing here
 // refers to them.
 template <Search S, Model M>
@@ -199,15 +194,7 @@ EventProcessor<S, M>::pair_event(const Event& event) {
   PairEvent out;
   out.contact = model_.contact().geometry(pair, elapsed);
   const kernels::ContactGeometry& contact = out.contact;
-  if constexpr (M::has_sliding) {
-    out.outcome = run_.sliding->outcome(
-        gas_, {pair, now(), contact, event.side, model_.restitution(first, second),
-               run_.windows.mean_free_time()});
-  } else {
-    const bool elastic = by_contact_time(a, b);
-    out.outcome = model_.collide(a, b, now(), contact, event.side, elastic);
-    out.outcome.contact_time_rule = elastic;
-  }
+  out.outcome = pair_events_.outcome(pair, a, b, now(), contact, event.side);
   if constexpr (M::Law::has_distance) {
     // The centres are as far apart along the normal as both bodies reach from them: never below 0.
     // A contact without velocity has an impulse of -0.
@@ -222,10 +209,7 @@ template <Search S, Model M>
 Happening EventProcessor<S, M>::happening_of(const Event& event, const PairEvent& of) const {
   const PairOutcome& outcome = of.outcome;
   Happening out;
-  if constexpr (M::has_sliding) {
-    if (outcome.bond == BondChange::begins) out.kind = Happening::contact_entered;
-    if (outcome.bond == BondChange::ends && !outcome.collides) out.kind = Happening::contact_ended;
-  }
+  out.kind = PairEvents::kind(of.outcome);
   Collision& report = out.event;
   set_time(report);
   report.first = event.lower_id.value;
@@ -244,16 +228,9 @@ Happening EventProcessor<S, M>::happening_of(const Event& event, const PairEvent
 template <Search S, Model M>
 void EventProcessor<S, M>::meet(const Event& event) {
   const Needle a = event.lower(), b = event.higher();
-  count_at_instant(a, b);
   const PairEvent of = pair_event(event);
   const auto& outcome = of.outcome;
-  if constexpr (M::has_sliding) {
-    if (outcome.is_unresolvable()) {
-      --tally_.at_instant;
-      refuse_parallel(event);
-    }
-  }
-  Happening happening = happening_of(event, of);
+  count_at_instant(a, b);
   Shift wraps_a, wraps_b;
   try {
     wraps_a = replace_record(a, [&] { return model_.renew(a, now(), outcome.first); });
@@ -264,31 +241,22 @@ void EventProcessor<S, M>::meet(const Event& event) {
     throw;
   }
   const Shift shift = event.shift + wraps_b - wraps_a;
-  if constexpr (M::has_sliding) {
-    run_.sliding->settle(gas_, a, b, shift, now(), outcome, tally_.sliding);
-  } else {
-    const kernels::Touch touch{.touching = true, .collided = true, .side = outcome.side, .gap = 0};
-    gas_.add_touch(a, RecordedTouch::of(event.higher_id, gas_.records[b].serial, shift, touch));
-    gas_.add_touch(b, RecordedTouch::of(event.lower_id, gas_.records[a].serial, -shift, touch));
-  }
-  if (M::has_effects && run_.contact_time_rule && outcome.collides) {
-    run_.contact_time_rule->collided(a, now());
-    run_.contact_time_rule->collided(b, now());
-  }
+  pair_events_.settle(a, b, shift, now(), outcome, tally_.sliding);
   count(of, a, b);
-  if (!M::has_sliding || (happening.kind == Happening::pair && !outcome.are_bonded())) {
+  Happening happening = happening_of(event, of);
+  const Happening::Kind kind = PairEvents::kind_in_hash(outcome);
+  if (kind == Happening::pair)
     tally_.hash.add(happening.event);
-  } else {
-    tally_.hash.add(happening.event,
-                    static_cast<std::uint8_t>(outcome.are_bonded() ? Happening::contact_entered
-                                                                   : Happening::contact_ended));
-  }
+  else
+    tally_.hash.add(happening.event, kind);
   const Time placed_a = place(a), placed_b = place(b);
   const double apart =
       model_.contact().time_apart(model_.pair(a, gas_.records[a], b, gas_.records[b], shift));
   schedule(a, placed_a, {b, shift, apart});
   schedule(b, placed_b, {a, -shift, apart});
-  if (run_.listeners.any()) report_pair(happening, outcome, a, b);
+  if (!run_.listeners.any()) return;
+  PairEvents::report(happening, outcome,
+                     [&](Happening& each) { run_.listeners.report(gas_, each, a, b, reports); });
 }
 
 template <Search S, Model M>
@@ -307,23 +275,6 @@ template <Search S, Model M>
     if (tally_.virial.empty()) tally_.virial.resize(1);
     tally_.virial.front().add(event.virial);
   }
-}
-
-template <Search S, Model M>
-void EventProcessor<S, M>::report_pair(Happening& happening, const Outcome& outcome, Needle a,
-                                       Needle b) {
-  if constexpr (M::has_sliding) {
-    // Needles that collide as their contact has been cut have ended it before.
-    if (outcome.collides && outcome.bond_before == SlidingPair::Bond::cut) {
-      Happening ended = happening;
-      ended.kind = Happening::contact_ended;
-      ended.event.impulse = {};
-      ended.event.energy_change = 0;
-      run_.listeners.report(gas_, ended, a, b, reports);
-    }
-    if (outcome.bond == BondChange::continues) return;
-  }
-  run_.listeners.report(gas_, happening, a, b, reports);
 }
 
 template <Search S, Model M>
@@ -351,9 +302,7 @@ void EventProcessor<S, M>::happen(const Event& event) {
   gas_.columns.count_change(i);
   EventSource& source = *run_.sources[event.source];
   const SourceOutcome outcome = source.happen(gas_, at, event.side);
-  if constexpr (M::has_sliding) {
-    if (source.kind() == Happening::wall) run_.sliding->hit_wall(i, now());
-  }
+  const std::optional<double> cut = pair_events_.source_acts(i, now(), source.kind());
   Happening happening;
   happening.kind = source.kind();
   happening.source = static_cast<std::uint8_t>(event.source + 1);
@@ -367,8 +316,6 @@ void EventProcessor<S, M>::happen(const Event& event) {
   report.energy_change = outcome.energy_change;
   report.contact_time_rule = outcome.contact_time_rule;
   if (outcome.changes_motion) {
-    std::optional<double> cut;
-    if constexpr (M::has_sliding) cut = Sliding::cut_by_event(gas_, i, now());
     try {
       replace_record(i, [&] {
         return model_.renew(i, now(),
@@ -513,15 +460,6 @@ void EventProcessor<S, M>::report_overlap(Needle a, Needle b, const Shift& shift
                   gas_.ids[a].value, gas_.ids[b].value, -model_.contact().gap(pair, DoubleDouble()),
                   gas_.clock.since_start(Gas::start_of(first, second))),
       {{gas_.ids[a].value, gas_.ids[b].value}});
-}
-
-template <Search S, Model M>
-void EventProcessor<S, M>::refuse_parallel(const Event& event) const {
-  throw InvalidStateError(
-      fmt::format("needles {} and {} slide on each other at time {:.17g} and are so nearly "
-                  "parallel that their motion cannot be resolved",
-                  event.lower_id.value, event.higher_id.value, gas_.clock.since_start(event.time)),
-      {{event.lower_id.value, event.higher_id.value}});
 }
 
 template <Search S, Model M>

@@ -126,6 +126,14 @@ void Gas::add_touch(Needle i, const RecordedTouch& touch) {
   ++record.touch_count;
 }
 
+void part(Gas& gas, Needle first, Needle second, const Shift& shift, int side) {
+  const kernels::Touch touch{.touching = true, .collided = true, .side = side, .gap = 0};
+  const Id first_id = gas.ids[first], second_id = gas.ids[second];
+  const std::uint32_t serials[] = {gas.records[first].serial, gas.records[second].serial};
+  gas.add_touch(first, RecordedTouch::of(second_id, serials[1], shift, touch));
+  gas.add_touch(second, RecordedTouch::of(first_id, serials[0], -shift, touch));
+}
+
 Shift add_boxes(const Shift& image, const Boxes& boxes, Id id) {
   Shift out;
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -116,6 +116,9 @@ Shift add_boxes(const Shift& image, const Boxes& boxes, Id id);
 /// forgotten. Returns the number of boxes by which the centre was wrapped. Throws
 /// InvalidStateError, and changes nothing, if that makes too many; see add_boxes().
 Shift renew_record(Gas& gas, Needle i, Time now, const kernels::BodyState& state, double extent);
+/// Enters a collision that two needles have just had, which leaves them on this side of each other,
+/// into their records; `shift` is that of the records.
+void part(Gas& gas, Needle first, Needle second, const Shift& shift, int side);
 /// Two needles as bodies that slide on each other.
 kernels::SlidingBodies sliding_bodies(const Gas& gas, Needle first, Needle second);
 

@@ -174,17 +174,6 @@ void Sliding::join(Gas& gas, Needle a, Needle b, const Shift& shift, int side) {
   gas.add_touch(b, RecordedTouch::bond(first, serial_first, -shift, side, slide.faster[1]));
 }
 
-namespace {
-
-// Makes their new records those of needles that part.
-void part(Gas& gas, Needle a, Needle b, const Shift& shift, int side) {
-  const kernels::Touch parted{.touching = true, .collided = true, .side = side, .gap = 0};
-  gas.add_touch(a, RecordedTouch::of(gas.ids[b], gas.records[b].serial, shift, parted));
-  gas.add_touch(b, RecordedTouch::of(gas.ids[a], gas.records[a].serial, -shift, parted));
-}
-
-}  // namespace
-
 void Sliding::settle(Gas& gas, Needle a, Needle b, const Shift& shift, Time now,
                      const Outcome& outcome, SlidingTally& tally) {
   if (outcome.are_bonded()) {
