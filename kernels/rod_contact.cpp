@@ -18,18 +18,10 @@ namespace {
 constexpr double rod_grid = 0.5;
 // So are they where the bound of the error of the distance is above this share of the reach.
 constexpr double rod_largest_error = 0x1p-46;
-// Below this share of the pair's speeds, the velocity at which it separates is rounding.
-constexpr double rod_velocity_noise = 0x1p-46;
 // So often rod_time_apart() halves the time for which it finds the rods to stay apart.
 constexpr int rod_tries = 5;
-// Spheres that fly apart do not meet again; a time for which all numbers stay finite.
-constexpr double rod_time_of_spheres = 0x1p20;
 
 double size_of(const Vec3d& a) { return std::sqrt(dot(a, a)); }
-
-Contact overlap_found() {
-  return {.found = true, .unresolvable = true, .overlap = true, .elapsed = {}, .side = 1};
-}
 
 class RodSearch {
  public:
@@ -43,16 +35,7 @@ class RodSearch {
 
  private:
   const Frame<double>& frame() { return rods_.frame<double>(); }
-  Contact result(const DoubleDouble& root, double end);
-  bool returns_by_rounding(const DoubleDouble& root);
-  // A rate of the excess at s = 0 that rounding of the velocities and of the normal may explain.
-  double noise_of_rate(const Instant<double>& start) const {
-    return 2 * rods_.rates().velocity * (rod_velocity_noise * start.distance + start.rods.error);
-  }
   bool meets_at_once(const Instant<double>& start);
-  Contact run_spheres(double end);
-  template <class T>
-  bool solve(std::optional<DoubleDouble>& root);
 
   template <class T>
   bool is_below(const Instant<T>& a);
@@ -194,34 +177,12 @@ bool RodSearch::meets_at_once(const Instant<double>& start) {
   if (start.rate > start.rate_error) return false;
   const Instant<DoubleDouble> fine = rods_.at(DoubleDouble());
   if (fine.excess > fine.error) return false;
-  return fine.rate < -noise_of_rate(start);
-}
-
-Contact RodSearch::result(const DoubleDouble& root, double end) {
-  if (root.hi > end) return {};
-  return {.found = true,
-          .unresolvable = rods_.pair().touch.collided && returns_by_rounding(root),
-          .elapsed = {root.hi * rods_.scale().per_rate, root.lo * rods_.scale().per_rate},
-          .side = 1};
-}
-
-// Whether rods that have just collided part with no more velocity than rounding may have left them,
-// and meet again with no more than they gain over the gap that it may have left.
-bool RodSearch::returns_by_rounding(const DoubleDouble& root) {
-  if (root.hi == 0) return true;
-  const Instant<double> start = rods_.at(0.0);
-  const double noise = 4 * noise_of_rate(start);
-  if (start.rate - start.rate_error > 4 * noise || rods_.at(DoubleDouble()).rate > noise)
-    return false;
-  const double gained = 64 * rods_.curvature(start.speed, start.distance) * start.error;
-  const double rate = rods_.at(root).rate;
-  return rate * rate <= noise * noise + gained;
+  return fine.rate < -rods_.noise_of_rate(start);
 }
 
 Contact RodSearch::run(double from, double until) {
   const double end = until * rods_.scale().per_time;
   const double reach = frame().half[0] + frame().half[1] + rods_.distance();
-  if (rods_.are_spheres()) return run_spheres(end);
   const TimeSpan overlap = sphere_overlap(frame().r, frame().v, reach);
   // Rods whose centres are beyond reach at s = 0 are farther apart than at a contact.
   std::optional<Instant<double>> start;
@@ -249,68 +210,16 @@ Contact RodSearch::run(double from, double until) {
     const auto found = accuracy_.escalation == Escalation::always
                            ? search(rods_.at(DoubleDouble(a.s)), rods_.at(DoubleDouble(b.s)))
                            : search(a, b);
-    if (found) return result(*found, end);
+    if (found) return contact_at(rods_, *found, end);
     a = b;
   }
   return {};
-}
-
-// The first root of |r + v s|^2 = distance^2, for spheres that approach; whether its error and that
-// of the decision that there is one are bounded well enough.
-template <class T>
-bool RodSearch::solve(std::optional<DoubleDouble>& root) {
-  using std::sqrt;
-  constexpr bool is_double = std::is_same_v<T, double>;
-  ++(is_double ? counters_.evaluated : counters_.escalated);
-  const Frame<T>& spheres = rods_.frame<T>();
-  const Vec3<T>&r = spheres.r, &v = spheres.v, n = cross(r, v);
-  const T contact = rods_.threshold<T>(), vv = dot(v, v);
-  const T excess = dot(r, r) - contact, d = contact * vv - dot(n, n);
-  const double rr = to_double(dot(r, r)), size = rr + to_double(contact);
-  const double of_contact = is_double ? rods_.threshold_error() : unit_roundoff<T> * size;
-  const double error = 6 * unit_roundoff<T> * rr + of_contact;
-  const double error_d = (16 * unit_roundoff<T> * size + of_contact) * to_double(vv);
-  // What double-double does not tell from a touch is one.
-  if (!(to_double(d) > (is_double ? -error_d : error_d))) return true;
-  const T s = excess / (sqrt(d) - dot(r, v));
-  root = DoubleDouble(s);
-  return error <= rod_polish_above * to_double(excess) &&
-         error_d <= rod_polish_above * to_double(d);
-}
-
-Contact RodSearch::run_spheres(double end) {
-  const double rr = dot(frame().r, frame().r);
-  const double error = 16 * unit_roundoff<double> * (rr + rods_.threshold<double>());
-  if (!(rr - rods_.threshold<double>() > error)) {
-    const Instant<double> start = rods_.at(0.0);
-    rods_.begin(start);
-    if (rods_.are_touching() && rods_.overlaps(start)) return overlap_found();
-    if (rods_.are_touching() && start.rate < 0) {
-      const Instant<DoubleDouble> fine = rods_.at(DoubleDouble());
-      if (!(fine.excess > fine.error)) {
-        // They fly along a line, so that a velocity which is rounding takes them no deeper.
-        if (!(fine.rate < -noise_of_rate(start))) return {};
-        return {.found = true, .elapsed = {}, .side = 1};
-      }
-    }
-  }
-  if (!(dot(frame().r, frame().v) < 0)) return {};
-  std::optional<DoubleDouble> root;
-  const bool always = accuracy_.escalation == Escalation::always;
-  if (always || !solve<double>(root)) {
-    root.reset();
-    solve<DoubleDouble>(root);
-  }
-  return root ? result(*root, end) : Contact{};
 }
 
 double RodSearch::time_apart() {
   if (!rods_.scale().moves) return 0;
   Instant<double> start = rods_.at(0.0);
   rods_.begin(start);
-  if (rods_.are_spheres()) {
-    return start.rate > 0 ? rod_time_of_spheres * rods_.scale().per_rate : 0;
-  }
   if (!rods_.are_touching()) return 0;
   start.excess = 0;
   double h = rod_grid;
@@ -341,8 +250,7 @@ ContactGeometry RodSearch::geometry(const DoubleDouble& elapsed) {
   };
   fill(rods_at(frame(), s.hi));
   // Arms lose the digits that |u1 x u2| has lost, and the normal those that the distance has.
-  const bool is_rough =
-      (!rods_.are_spheres() && !(out.sin_angle > 0x1p-10)) || rods_.distance() < 0x1p-10;
+  const bool is_rough = !(out.sin_angle > 0x1p-10) || rods_.distance() < 0x1p-10;
   if (is_rough) fill(rods_at(rods_.frame<DoubleDouble>(), s));
   return out;
 }
@@ -359,17 +267,13 @@ double RodSearch::gap(const DoubleDouble& elapsed) {
 
 Contact rod_contact(const RodPair& pair, double from, double until, EvaluationCounters& counters,
                     const Accuracy& accuracy) {
-  if (are_spheres(pair) && accuracy.escalation != Escalation::always) {
-    if (const auto contact = sphere_contact(pair, until, counters)) return *contact;
-  }
+  if (are_spheres(pair)) return sphere_contact(pair, until, counters, accuracy);
   const OrderedRods ordered(pair);
   return RodSearch(ordered.pair(), accuracy, counters).run(from, until);
 }
 
 ContactGeometry rod_geometry(const RodPair& pair, const DoubleDouble& elapsed) {
-  if (are_spheres(pair)) {
-    if (const auto geometry = sphere_geometry(pair, elapsed)) return *geometry;
-  }
+  if (are_spheres(pair)) return sphere_geometry(pair, elapsed);
   const OrderedRods ordered(pair);
   EvaluationCounters ignored;
   ContactGeometry out = RodSearch(ordered.pair(), standard_accuracy, ignored).geometry(elapsed);
@@ -382,9 +286,7 @@ ContactGeometry rod_geometry(const RodPair& pair, const DoubleDouble& elapsed) {
 }
 
 double rod_time_apart(const RodPair& pair) {
-  if (are_spheres(pair)) {
-    if (const auto time = sphere_time_apart(pair)) return *time;
-  }
+  if (are_spheres(pair)) return sphere_time_apart(pair);
   const OrderedRods ordered(pair);
   EvaluationCounters ignored;
   return RodSearch(ordered.pair(), standard_accuracy, ignored).time_apart();

@@ -24,6 +24,9 @@ struct Instant {
   double speed;             ///< of a point of one axis relative to one of the other, not below
 };
 
+/// Below this share of the pair's speeds, the velocity at which it separates is rounding.
+inline constexpr double rod_velocity_noise = 0x1p-46;
+
 /// The pair in scaled lengths and time. It counts its evaluations.
 class RodInstants {
  public:
@@ -42,7 +45,6 @@ class RodInstants {
   const RodPair& pair() const { return pair_; }
   const PairScale& scale() const { return scale_; }
   const RodRates& rates() const { return rates_; }
-  bool are_spheres() const { return frame_.half[0] == 0 && frame_.half[1] == 0; }
   /// Of the axes at contact, where rounding of the records does not count.
   double distance() const { return distance_; }
 
@@ -72,6 +74,10 @@ class RodInstants {
   /// distance are not.
   double curvature(double speed, double distance) const {
     return 2 * (speed * speed + distance * rates_.acceleration) * roundup;
+  }
+  /// A rate of the excess at s = 0 that rounding of the velocities and of the normal may explain.
+  double noise_of_rate(const Instant<double>& start) const {
+    return 2 * rates_.velocity * (rod_velocity_noise * start.distance + start.rods.error);
   }
   /// Speeds between a and b are not above this.
   template <class T>
@@ -170,6 +176,33 @@ inline void RodInstants::begin(const Instant<double>& start) {
 
 inline bool RodInstants::overlaps(const Instant<double>& at) const {
   return distance_ - at.distance > rod_allowance_of(pair_) * scale_.per_length + at.rods.error;
+}
+
+/// That rods are nearer at s = 0 than rounding explains.
+inline Contact overlap_found() {
+  return {.found = true, .unresolvable = true, .overlap = true, .elapsed = {}, .side = 1};
+}
+
+/// Whether rods that have just collided part with no more velocity than rounding may have left
+/// them, and meet again with no more than they gain over the gap that it may have left.
+inline bool returns_by_rounding(RodInstants& rods, const DoubleDouble& root) {
+  if (root.hi == 0) return true;
+  const Instant<double> start = rods.at(0.0);
+  const double noise = 4 * rods.noise_of_rate(start);
+  if (start.rate - start.rate_error > 4 * noise || rods.at(DoubleDouble()).rate > noise)
+    return false;
+  const double gained = 64 * rods.curvature(start.speed, start.distance) * start.error;
+  const double rate = rods.at(root).rate;
+  return rate * rate <= noise * noise + gained;
+}
+
+/// The contact at this root, in scaled time, if that is not after the end.
+inline Contact contact_at(RodInstants& rods, const DoubleDouble& root, double end) {
+  if (root.hi > end) return {};
+  return {.found = true,
+          .unresolvable = rods.pair().touch.collided && returns_by_rounding(rods, root),
+          .elapsed = {root.hi * rods.scale().per_rate, root.lo * rods.scale().per_rate},
+          .side = 1};
 }
 
 }  // namespace needlework::kernels

@@ -1,12 +1,11 @@
-// What plain double decides about two spheres, by a quadratic equation: nearly everything. The rest
-// is left to the functions of kernels/rod_contact.h, which call these first, and of which these are
-// bit for bit.
+// First contact of two spheres of finite width in free flight: nearly always by a quadratic
+// equation in double, in double-double where that leaves a doubt. What is promised of rods
+// (kernels/rod_contact.h) holds of these functions, too.
 #pragma once
-
-#include <optional>
 
 #include "kernels/first_contact.h"
 #include "kernels/rod_pair.h"
+#include "needlework/accuracy.h"
 
 namespace needlework::kernels {
 
@@ -14,15 +13,14 @@ inline bool are_spheres(const RodPair& pair) {
   return pair.half_first == 0 && pair.half_second == 0;
 }
 
-/// rod_contact() of two spheres. Nothing where they touch at s = 0, where rounding might decide, or
-/// where squares of their numbers might overflow or lose digits.
-std::optional<Contact> sphere_contact(const RodPair& pair, double until,
-                                      EvaluationCounters& counters);
+/// As rod_contact(), of which it is a special case.
+Contact sphere_contact(const RodPair& pair, double until, EvaluationCounters& counters,
+                       const Accuracy& accuracy = standard_accuracy);
 
-/// rod_geometry() of two spheres, or nothing for the latter two reasons.
-std::optional<ContactGeometry> sphere_geometry(const RodPair& pair, const DoubleDouble& elapsed);
+/// As rod_geometry(); both arms are 0.
+ContactGeometry sphere_geometry(const RodPair& pair, const DoubleDouble& elapsed);
 
-/// rod_time_apart() of two spheres, or nothing if that is not above 0.
-std::optional<double> sphere_time_apart(const RodPair& pair);
+/// As rod_time_apart(): spheres that fly apart do not meet again at all.
+double sphere_time_apart(const RodPair& pair);
 
 }  // namespace needlework::kernels

@@ -42,13 +42,19 @@ template <Surface surface>
 Impact collide(const CollidingPair& meeting, const Restitution& restitution) {
   const auto& [v_first, w_first, v_second, w_second, body_first, body_second, c, side] = meeting;
   const double epsilon = restitution.epsilon;
-  const Vec3d v = (v_first - v_second) + (cross(w_first, c.u_first) * c.arm_first -
-                                          cross(w_second, c.u_second) * c.arm_second);
+  constexpr bool turns = surface != Surface::sphere;
+  Vec3d v = v_first - v_second;
+  if constexpr (turns) {
+    v += cross(w_first, c.u_first) * c.arm_first - cross(w_second, c.u_second) * c.arm_second;
+  }
   double vn = dot(v, c.normal);
   if (vn * side > 0) vn = 0;
   const double masses = body_first.inverse_mass + body_second.inverse_mass;
-  double inertia_first = body_first.inverse_inertia * (c.arm_first * c.arm_first);
-  double inertia_second = body_second.inverse_inertia * (c.arm_second * c.arm_second);
+  double inertia_first = 0, inertia_second = 0;
+  if constexpr (turns) {
+    inertia_first = body_first.inverse_inertia * (c.arm_first * c.arm_first);
+    inertia_second = body_second.inverse_inertia * (c.arm_second * c.arm_second);
+  }
   if constexpr (surface == Surface::wide) {
     const Vec3d x_first = cross(c.u_first, c.normal), x_second = cross(c.u_second, c.normal);
     inertia_first *= dot(x_first, x_first);
@@ -66,6 +72,7 @@ Impact collide(const CollidingPair& meeting, const Restitution& restitution) {
   }
   out.v_first = v_first + out.impulse * body_first.inverse_mass;
   out.v_second = v_second - out.impulse * body_second.inverse_mass;
+  if constexpr (!turns) return out;
   out.w_first =
       w_first + cross(c.u_first, out.impulse) * (body_first.inverse_inertia * c.arm_first);
   out.w_second =
@@ -76,5 +83,6 @@ Impact collide(const CollidingPair& meeting, const Restitution& restitution) {
 template Impact collide<Surface::smooth>(const CollidingPair&, const Restitution&);
 template Impact collide<Surface::rough>(const CollidingPair&, const Restitution&);
 template Impact collide<Surface::wide>(const CollidingPair&, const Restitution&);
+template Impact collide<Surface::sphere>(const CollidingPair&, const Restitution&);
 
 }  // namespace needlework

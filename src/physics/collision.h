@@ -30,7 +30,8 @@ struct CollidingPair {
 enum class Surface {
   smooth,  ///< beta = -1
   rough,   ///< any beta
-  wide     ///< smooth rods of finite width, whose normal need not be normal to the directors
+  wide,    ///< smooth rods of finite width, whose normal need not be normal to the directors
+  sphere   ///< smooth spheres, which nothing turns
 };
 
 /// Velocities and impulse after a collision of two needles. They must approach, V_n side < 0; if
