@@ -1,6 +1,7 @@
 """Links among the documents lead somewhere, files and tests that they name exist, tables are tables,
 the container is built as the front page says, which stays short, as do all pages together."""
 
+import csv
 import re
 import unittest
 from functools import lru_cache
@@ -137,6 +138,16 @@ class Documents(unittest.TestCase):
         missing = [path.name for path in (ROOT / "docs").glob("*.md")
                    if path.name != "README.md" and f"({path.name})" not in index]
         self.assertEqual(missing, [])
+
+    def test_columns_of_the_figures_data_are_explained(self):
+        folder = ROOT / "docs/reproduction"
+        with open(folder / "columns.csv", encoding="utf-8", newline="") as table:
+            explained = [(row["figure"], row["column"]) for row in csv.DictReader(table) if row["meaning"]]
+        data = {path.stem.removeprefix("figure-"): path for path in folder.glob("figure-*.csv")}
+        self.assertGreater(len(data), 30)
+        there = [(name, column) for name, path in data.items()
+                 for column in path.read_text().splitlines()[0].split(",")]
+        self.assertEqual(sorted(explained), sorted(there))
 
     def test_tables_have_heads(self):
         self.assertEqual([row for path in documents() for row in tables_without_head(path)], [])
