@@ -262,7 +262,7 @@ Exit codes:
   1   differences found (audit, bench --compare, replay)
   2   wrong usage
   3   a scene or input file that cannot be used
-  4   the state of a run became invalid
+  4   a run cannot go on: needles collapse, a limit of long runs, a defect
   5   a file that cannot be read or written, or a missing package (reproduce)
   75  stopped by a signal or a time limit, after saving if there is a file
 
