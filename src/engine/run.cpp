@@ -79,7 +79,8 @@ Effects effects_of(const Scene& scene) {
           .table = !only || !is_unit(composition[*only]),
           .width = composition.has_width(),
           .sliding = scene.collisions.sliding,
-          .kicks = scene.driving.kicks.has_value()};
+          .kicks = scene.driving.kicks.has_value(),
+          .gravity = has_gravity(scene)};
 }
 
 Run::Run(const Scene& scene)

@@ -17,9 +17,10 @@ struct Effects {
   bool sliding = false;  ///< needles slide on each other
   bool sources = false;  ///< there are sources of events
   bool kicks = false;    ///< the velocities of all needles change at one instant, again and again
+  bool gravity = false;  ///< needles fall freely between events
 
   bool any() const {
-    return rough || contact_time || table || width || sliding || sources || kicks;
+    return rough || contact_time || table || width || sliding || sources || kicks || gravity;
   }
 };
 

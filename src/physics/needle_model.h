@@ -18,7 +18,15 @@ class NeedleModel {
   static constexpr bool has_sliding = Law::slides;
   static_assert(has_effects || !(Law::has_distance || has_sliding), "bodies are looked up");
 
-  /// `gas` must outlive the model. Without effects, `effects` must have none.
+  /// Whether the model simulates these effects, all of them and no other one.
+  static constexpr bool covers(const Effects& effects) {
+    if (Law::has_distance != effects.width || has_sliding != effects.sliding) return false;
+    if (effects.rough && !Law::may_be_rough) return false;
+    if (effects.contact_time && has_sliding) return false;  // both replace the same bounces
+    return has_effects || !effects.any();
+  }
+
+  /// `gas` must outlive the model, which must cover the effects.
   NeedleModel(Gas& gas, const Effects& effects, const Accuracy& accuracy)
       : gas_(gas),
         effects_(effects),
