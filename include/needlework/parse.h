@@ -47,8 +47,8 @@ Scene parse_scene(std::string_view text, std::string_view name,
 Scene parse_recorded_scene(const std::string& text, std::string_view name);
 
 /// Replaces conditions of [until] in a scene that has been read, by overrides "until.key=value",
-/// and removes those that are "until.key=none". Throws InputError for other keys and for bad
-/// values.
+/// and removes those that are "until.key=none". Throws InputError for other keys, for bad values
+/// and for ends that the scene cannot have.
 void override_until(Scene& scene, std::span<const std::string> overrides);
 
 /// The text of a scene file, or its first part if it is longer than max_scene_bytes, which

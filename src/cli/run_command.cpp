@@ -22,6 +22,7 @@
 #include "src/runs/prepared_run.h"
 #include "src/runs/run_driver.h"
 #include "src/scene/check.h"
+#include "src/scene/validity.h"
 
 namespace needlework::cli {
 
@@ -112,7 +113,7 @@ int run(const RunArguments& arguments) {
     runs::require_writable_output(scene, arguments.force, arguments.scene.path);
     io::require_not_being_written(file, place + ": cannot be replaced");
   }
-  runs::require_reachable_end(scene);
+  require_rules(scene, Aspect::end);
   const std::vector<std::string> warnings = warn(loaded);
   RunLog log = open_log(arguments.printing, file);
   return logged(log, [&] {

@@ -20,7 +20,7 @@
 #include "src/scene/confinement.h"
 #include "src/scene/drawing.h"
 #include "src/scene/rod_room.h"
-#include "src/scene/scene_values.h"
+#include "src/scene/validity.h"
 
 namespace needlework {
 namespace {
@@ -182,9 +182,8 @@ std::optional<DrawnState> inserted(const Scene& scene, double most_tries_on_aver
 }  // namespace
 
 DrawnState draw_state(const Scene& scene) {
-  require_drawable(scene);
+  require_valid(scene, drawable);
   if (!scene.composition().has_width()) return {draw_needles(scene), {}};
-  require_room_for_rods(scene);
   const std::string& packing = scene.initial.packing;
   if (packing == "insertion") {
     require_insertable(scene);
@@ -206,8 +205,7 @@ DrawnState draw_state(const Scene& scene) {
 }
 
 PlannedPlacement plan_placement(const Scene& scene) {
-  require_drawable(scene);
-  require_room_for_rods(scene);
+  require_valid(scene, drawable);
   const double tries = tries_of(scene);
   const std::string& packing = scene.initial.packing;
   if (packing == "insertion") require_insertable(scene);

@@ -1,8 +1,8 @@
 #include "src/engine/make_loop.h"
 
+#include <stdexcept>
 #include <utility>
 
-#include "needlework/error.h"
 #include "src/calendar/any_calendar.h"
 #include "src/calendar/cell_calendar.h"
 #include "src/engine/loops/loops.h"
@@ -18,9 +18,8 @@ std::unique_ptr<Loop> with_search(Run& run, S search, LoopChoice& choice) {
 
 void require_one_thread(const LoopChoice& choice) {
   if (choice.threads == 1) return;
-  throw InputError(choice.threads_place + ": expected 1 for search " + choice.search +
-                   " with queue " + choice.calendar +
-                   "; several threads need linked-cells or capsules, and cell-calendar");
+  throw std::logic_error("several threads cannot share the search " + choice.search +
+                         " and the queue " + choice.calendar);
 }
 
 }  // namespace
@@ -43,8 +42,7 @@ std::unique_ptr<Loop> make_loop(Run& run, LoopChoice choice) {
     return with_search(run, AllPairs(run.gas, counters, choice.setup), choice);
   if (choice.search == LinkedLists::search_name)
     return with_search(run, LinkedLists(run.gas, counters, choice.setup), choice);
-  throw InputError("engine.search = \"" + choice.search +
-                   "\": expected auto, all-pairs, linked-lists, linked-cells or capsules");
+  throw std::logic_error("there is no search " + choice.search);
 }
 
 }  // namespace needlework

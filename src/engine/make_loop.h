@@ -22,9 +22,9 @@ struct LoopChoice {
   ReplacedRecords replaced = {};  ///< records that were replaced at the present time
 };
 
-/// Makes the loop with these parts, for the effects `run.effects`. `run` must outlive it. Throws
-/// InputError for an unknown name, and for several threads if search or calendar supports only
-/// one.
+/// Makes the loop with these parts, for the effects `run.effects`. `run` must outlive it. The
+/// names must be known, and for several threads if there are some, as in a valid scene
+/// (src/scene/validity.h); else it throws std::logic_error, or InputError for the calendar.
 std::unique_ptr<Loop> make_loop(Run& run, LoopChoice choice);
 
 }  // namespace needlework

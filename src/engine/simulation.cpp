@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
 
 #include "kernels/default_arithmetic.h"
 #include "needlework/error.h"
@@ -23,7 +24,7 @@
 #include "src/scene/accuracy.h"
 #include "src/scene/check.h"
 #include "src/scene/confinement.h"
-#include "src/scene/scene_values.h"
+#include "src/scene/validity.h"
 #include "src/search/choice.h"
 #include "src/search/lengths.h"
 #include "src/search/sizing.h"
@@ -37,7 +38,7 @@ kernels::Isa isa_of(const std::string& name) {
   for (const kernels::Isa isa : offered) {
     if (kernels::name_of(isa) == name) return isa;
   }
-  throw InputError("engine.isa = \"" + name + "\": expected one that this processor has");
+  throw std::logic_error("engine.isa = \"" + name + "\": expected one of a valid scene");
 }
 
 // The parts of the loop that the scene asks for, for a gas of this density.
@@ -263,7 +264,7 @@ struct Simulation::Implementation {
 
 void require_simulable(const Scene& scene, const State& initial) {
   const kernels::DefaultArithmetic arithmetic;
-  require_simulable(scene);
+  require_valid(scene, simulable);
   const Run run(scene, make_gas(scene, initial));
 }
 
@@ -327,7 +328,7 @@ Simulation::Simulation(const Scene& scene) {
                      "io::read_last_frame() and pass it to Simulation(scene, state)");
   }
   const kernels::DefaultArithmetic arithmetic;
-  require_simulable(scene);
+  require_valid(scene, simulable);
   // The state's arrays are freed before the rest of the run allocates its memory.
   DrawnState drawn = draw_state(scene);
   Gas gas = make_gas(scene, drawn.state);
@@ -338,13 +339,13 @@ Simulation::Simulation(const Scene& scene) {
 
 Simulation::Simulation(const Scene& scene, const State& initial) {
   const kernels::DefaultArithmetic arithmetic;
-  require_simulable(scene);
+  require_valid(scene, simulable);
   implementation_ = std::make_unique<Implementation>(scene, make_gas(scene, initial));
 }
 
 Simulation::Simulation(const Scene& scene, const Checkpoint& checkpoint) {
   const kernels::DefaultArithmetic arithmetic;
-  require_simulable(scene);
+  require_valid(scene, simulable);
   implementation_ = std::make_unique<Implementation>(scene, checkpoint);
 }
 

@@ -27,7 +27,7 @@
 #include "src/runs/durable_file.h"
 #include "src/scene/printable.h"
 #include "src/scene/saved_scene.h"
-#include "src/scene/scene_values.h"
+#include "src/scene/validity.h"
 #include "src/trajectory/saved_totals.h"
 
 namespace needlework {
@@ -151,7 +151,7 @@ void require_mark(const std::string& path, std::string_view line) {
 void validate(Scene& scene) {
   // The name of the output file may be any: options give it, and callers replace it.
   std::string file = std::exchange(scene.output.file, {});
-  require_valid(scene);
+  require_restored(scene);
   scene.output.file = std::move(file);
   // They become parts of messages.
   for (auto& [key, place] : scene.places) place = printable(place);

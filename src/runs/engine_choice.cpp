@@ -1,41 +1,21 @@
 #include "src/runs/engine_choice.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <omp.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <vector>
 
-#include "kernels/isa.h"
 #include "needlework/error.h"
 #include "needlework/simulation.h"
 #include "src/machine/available_cores.h"
 #include "src/runs/exact_rates.h"
 #include "src/scene/check.h"
+#include "src/scene/validity.h"
 
 namespace needlework::runs {
 namespace {
-
-using Names = std::vector<std::string>;
-
-const Names parallel_searches{"linked-cells", "capsules"};
-const Names parallel_calendars{"cell-calendar"};
-
-bool contains(const Names& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-std::string list(const Names& names) { return fmt::format("{}", fmt::join(names, ", ")); }
-
-void require_instruction_set(const std::string& isa, const std::string& place) {
-  const Names names = instruction_sets();
-  if (isa != "auto" && !contains(names, isa)) {
-    throw InputError(
-        fmt::format("{}: expected auto or one that this CPU has ({})", place, list(names)));
-  }
-}
 
 std::string wish_for_threads() {
   const char* text = std::getenv("OMP_NUM_THREADS");
@@ -58,43 +38,23 @@ constexpr std::size_t least_needles_of_a_thread = 4000;
 
 }  // namespace
 
-bool is_for_threads(const Scene::Engine& engine) {
-  return (engine.search == "auto" || contains(parallel_searches, engine.search)) &&
-         (engine.queue == "auto" || contains(parallel_calendars, engine.queue));
-}
-
 int threads_by_size(std::size_t needles) {
   const std::size_t shares = std::max<std::size_t>(1, needles / least_needles_of_a_thread);
   const int most = std::min(cores(), omp_get_max_threads());
   return static_cast<int>(std::min<std::size_t>(shares, std::max(1, most)));
 }
 
-std::vector<std::string> instruction_sets() {
-  Names names;
-  for (const kernels::Isa isa : kernels::available()) names.emplace_back(kernels::name_of(isa));
-  return names;
-}
-
 void choose_engine(Scene& scene) {
   Scene::Engine& engine = scene.engine;
-  std::string isa_place = place_of(scene, "engine.isa", engine.isa);
   const char* isa_of_environment = std::getenv("NEEDLEWORK_ISA");
   if (engine.isa == "auto" && isa_of_environment && *isa_of_environment) {
     engine.isa = isa_of_environment;
-    isa_place = "NEEDLEWORK_ISA=" + engine.isa;
+    scene.places["engine.isa"] = "NEEDLEWORK_ISA=" + engine.isa;
   }
-  require_instruction_set(engine.isa, isa_place);
-
+  require_rules(scene, Aspect::machine);
+  const bool parallel = is_for_threads(engine);
   const std::string threads_place =
       place_of(scene, "engine.threads", fmt::to_string(engine.threads.value_or(1)));
-  const bool parallel = is_for_threads(engine);
-  if (engine.threads && *engine.threads > 1 && !parallel) {
-    throw InputError(
-        fmt::format("{}: expected 1 with search {} and queue {}; several threads need "
-                    "search {} and queue {}",
-                    threads_place, engine.search, engine.queue, list(parallel_searches),
-                    list(parallel_calendars)));
-  }
   const int most = omp_get_thread_limit();
   if (engine.threads && *engine.threads > most) {
     throw InputError(fmt::format(

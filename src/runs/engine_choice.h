@@ -7,11 +7,12 @@
 
 #include "needlework/scene.h"
 #include "src/runs/loaded_scene.h"
+#include "src/scene/engine_parts.h"
 
 namespace needlework::runs {
 
-/// Instruction sets on offer on this CPU, by the names of `engine.isa`, the narrowest first.
-std::vector<std::string> instruction_sets();
+using needlework::instruction_sets;
+using needlework::is_for_threads;
 
 /// Completes the scene's choice from the environment and checks that threads and instruction set
 /// are on offer. NEEDLEWORK_ISA counts where the scene says auto. OMP_NUM_THREADS is a wish for at
@@ -19,9 +20,6 @@ std::vector<std::string> instruction_sets();
 /// takes one. Where threads are chosen by size, needles.count has to be known. Throws InputError
 /// naming the value, where it was set, and what is available.
 void choose_engine(Scene& scene);
-
-/// Whether search and calendar are for several threads.
-bool is_for_threads(const Scene::Engine& engine);
 
 /// How many threads `engine.threads = "auto"` takes: one for each core that the process may use, at
 /// most as many as OMP_NUM_THREADS says, and only as many as have enough needles each.

@@ -16,13 +16,14 @@
 #include "src/runs/state_file.h"
 #include "src/scene/check.h"
 #include "src/scene/confinement.h"
+#include "src/scene/validity.h"
 #include "src/trajectory/saved_totals.h"
 
 namespace needlework::runs {
 
 void require_events(const LoadedScene& loaded, const std::string& path) {
   const Scene& scene = loaded.scene;
-  require_reachable_end(scene);
+  require_rules(scene, Aspect::end);
   if (scene.until.time) return;
   const std::string why =
       loaded.initial ? why_no_collision(scene, *loaded.initial) : why_no_collision(scene);
@@ -30,18 +31,6 @@ void require_events(const LoadedScene& loaded, const std::string& path) {
     throw InputError(fmt::format(
         "{}: nothing can ever happen, as {}: expected needles that can collide, or until.time",
         path, why));
-  }
-}
-
-void require_reachable_end(const Scene& scene) {
-  const Scene::Until& until = scene.until;
-  if (!until.time && until.energy_ratio && *until.energy_ratio < 1 &&
-      !scene.composition().is_inelastic() && !exchanges_energy(scene) &&
-      !until.collisions_per_needle && !until.wall_s) {
-    throw InputError(
-        fmt::format("{}: is never met, as collisions keep the energy: expected another end, or "
-                    "collisions.epsilon < 1",
-                    place_of(scene, "until.energy_ratio", fmt::to_string(*until.energy_ratio))));
   }
 }
 

@@ -29,9 +29,6 @@ namespace needlework::runs {
 /// happen and no end in time is set, or collisions keep the energy and no other end is set.
 void require_events(const LoadedScene& loaded, const std::string& path);
 
-/// Throws InputError if collisions keep the energy and no end but one in energy is set.
-void require_reachable_end(const Scene& scene);
-
 /// What front ends say where a caller sets velocities alone.
 inline constexpr const char* no_rotation_given =
     "angular_velocity: not given: those of all needles are 0 now";

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "needlework/error.h"
-#include "src/scene/bodies.h"
 #include "src/scene/check.h"
-#include "src/scene/confinement.h"
 #include "src/scene/printable.h"
+#include "src/scene/section.h"
+#include "src/scene/validity.h"
 
 namespace needlework {
 namespace {
@@ -29,7 +29,7 @@ bool agrees(double given, double expected) {
 std::string key_of_body(const Scene& scene, std::string_view key, std::size_t n) {
   std::string short_form = fmt::format("needles.{}", key);
   const bool is_short = scene.species.empty() || scene.places.contains(short_form);
-  return is_short ? short_form : key_of_species(key, n);
+  return is_short ? short_form : key_of_entry(fmt::format("species.{}", key), n);
 }
 
 // Whether the scene says this of a species. One that is built in code says what is not the default.
@@ -82,7 +82,7 @@ double k_of(const Scene& scene, const Species& body, std::size_t n, const Bodies
 Species completed(const Scene& scene, Species body, std::size_t n, const Bodies& bodies) {
   if (!bodies.names.empty() && !scene.species.empty() && body.name != bodies.names[n]) {
     const auto quoted = [](const std::string& name) { return '"' + printable(name) + '"'; };
-    refuse(scene, place_of(scene, key_of_species("name", n), quoted(body.name)),
+    refuse(scene, place_of(scene, key_of_entry("species.name", n), quoted(body.name)),
            quoted(bodies.names[n]));
   }
   for (const auto& [key, known, value] : dimensions) {
@@ -116,7 +116,7 @@ void require_as_many_species(const Scene& scene, const Bodies& bodies) {
   std::vector<std::string> names;
   for (const std::string& name : bodies.names) names.push_back(printable(name));
   refuse(scene,
-         place_of(scene, key_of_species("name", given - 1),
+         place_of(scene, key_of_entry("species.name", given - 1),
                   '"' + printable(scene.species.back().name) + '"'),
          fmt::format("{} [[species]]{}{}, not {}", known, names.empty() ? "" : ": ",
                      fmt::join(names, ", "), given));
@@ -206,11 +206,9 @@ void adopt_bodies(Scene& scene, const Bodies& bodies) {
 
 void adopt_state(Scene& scene, const State& state) {
   adopt_bodies(scene, state.bodies);
-  require_pairs_of_species(scene);
-  require_possible_bodies(scene);
-  require_compatible_effects(scene);
+  require_rules(scene, Aspect::species | Aspect::bodies | Aspect::pairs | Aspect::effects);
   adopt_count_and_box(scene, state);
-  if (scene.places.contains("needles.box")) require_room_in_box(scene);
+  if (scene.places.contains("needles.box")) require_rules(scene, Aspect::room);
 }
 
 Bodies bodies_of(const Composition& composition) {

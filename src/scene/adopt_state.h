@@ -12,8 +12,8 @@ namespace needlework {
 /// Completes a scene that starts from a given state, read from scene.initial.file if that is not
 /// empty, with its count, box and bodies. What the scene says itself must agree, numbers to a
 /// relative 1e-12; otherwise throws InputError: "PLACE: expected ..., as in FILE". So it does for
-/// bodies that the rest of the scene is not made for, see require_possible_bodies(). A count that
-/// the scene does not give is attributed to the file in later messages.
+/// bodies that the rest of the scene is not made for, see require_rules(). A count that the scene
+/// does not give is attributed to the file in later messages.
 void adopt_state(Scene& scene, const State& state);
 /// The part of it that is about the count, so that it can be asked before the state is read. Fills
 /// in nothing.

@@ -1,18 +1,13 @@
 #include "src/scene/confinement.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string_view>
 
 #include "kernels/sine_cosine.h"
-#include "needlework/error.h"
 #include "src/scene/box_edges.h"
-#include "src/scene/check.h"
-#include "src/scene/observable_names.h"
 
 namespace needlework {
 namespace {
@@ -26,110 +21,6 @@ double approach_of(const Scene::WallMotion& a, const Scene::WallMotion& b) {
   const SineCosine<double> turn_a = sine_cosine(a.phase), turn_b = sine_cosine(b.phase);
   return std::hypot(a.amplitude * turn_a.cosine - b.amplitude * turn_b.cosine,
                     a.amplitude * turn_a.sine - b.amplitude * turn_b.sine);
-}
-
-// The key of an entry [[walls]] as Scene::places has it.
-std::string key_of(std::string_view key, std::size_t entry) {
-  return entry == 0 ? fmt::format("walls.{}", key) : fmt::format("walls.{}#{}", key, entry);
-}
-
-std::string quoted(std::string_view text) { return fmt::format("\"{}\"", text); }
-
-std::string place_of_side(const Scene& scene, std::size_t entry) {
-  return place_of(scene, key_of("side", entry), quoted(scene.walls[entry].side));
-}
-
-std::string place_of_gravity(const Scene& scene) {
-  return place_of(scene, "forces.gravity",
-                  fmt::format("[{}]", fmt::join(scene.forces.gravity, ", ")));
-}
-
-[[noreturn]] void refuse_at(const std::string& place, const std::string& expected) {
-  throw InputError(fmt::format("{}: expected {}", place, expected));
-}
-
-void require_one_wall_a_side(const Scene& scene) {
-  const std::vector<Scene::WallSide> sides = scene.wall_sides();
-  for (auto side = sides.begin(); side != sides.end(); ++side) {
-    const bool is_taken = std::any_of(sides.begin(), side, [&](const Scene::WallSide& other) {
-      return other.axis == side->axis && other.is_high == side->is_high;
-    });
-    if (!is_taken) continue;
-    refuse_at(place_of_side(scene, side->entry),
-              fmt::format("no second wall at the {} edge of {}", side->is_high ? "high" : "low",
-                          axis_names[side->axis]));
-  }
-}
-
-void require_thermal_walls_at_rest(const Scene& scene) {
-  constexpr const char* reason =
-      "none beside temperature: a thermal wall is at rest, and epsilon and t_c do not apply";
-  for (std::size_t n = 0; n < scene.walls.size(); ++n) {
-    const Scene::Wall& wall = scene.walls[n];
-    if (!wall.temperature) continue;
-    const std::string epsilon = key_of("epsilon", n);
-    if (wall.epsilon != 1 || scene.places.contains(epsilon))
-      refuse_at(place_of(scene, epsilon, fmt::to_string(wall.epsilon)), reason);
-    if (wall.motion)
-      refuse_at(
-          place_of(scene, key_of("motion.amplitude", n), fmt::to_string(wall.motion->amplitude)),
-          reason);
-  }
-}
-
-// Nothing holds needles back on an open side but gravity, and nothing brakes them along a periodic
-// axis but the faces of thermal walls beside it.
-void require_gravity_to_walls(const Scene& scene) {
-  const std::array<Gap, 3> gaps = gaps_of(scene);
-  for (const Scene::WallSide& side : scene.wall_sides()) {
-    const double gravity = scene.forces.gravity[side.axis];
-    if (!gaps[side.axis].is_open() || (side.is_high ? gravity > 0 : gravity < 0)) continue;
-    const char axis = axis_names[side.axis];
-    refuse_at(
-        place_of_side(scene, side.entry),
-        fmt::format("\"both\", or a second wall along {}, or forces.gravity that points to this "
-                    "one: needles would leave the box at its open side",
-                    axis));
-  }
-  const bool brakes = std::ranges::any_of(
-      scene.walls, [](const Scene::Wall& wall) { return wall.temperature.has_value(); });
-  for (std::size_t axis = 0; axis < 3 && !brakes; ++axis) {
-    if (scene.forces.gravity[axis] == 0 || gaps[axis].is_walled()) continue;
-    refuse_at(place_of_gravity(scene),
-              fmt::format("none along {0}, which is periodic, or a wall with a temperature along "
-                          "another axis: thermal walls brake along their face, and without one all "
-                          "needles would gain speed along {0} together for ever",
-                          axis_names[axis]));
-  }
-  if (brakes && has_gravity_along_periodic(scene) && scene.until.energy_ratio) {
-    refuse_at(place_of(scene, "until.energy_ratio", fmt::to_string(*scene.until.energy_ratio)),
-              "another end, such as time: gravity along a periodic axis does work all the time, "
-              "which thermal walls take out");
-  }
-}
-
-void require_thermostat_without_gravity(const Scene& scene) {
-  if (!scene.driving.andersen || scene.forces.gravity == std::array<double, 3>{}) return;
-  refuse_at(place_of(scene, "driving.andersen.rate", fmt::to_string(scene.driving.andersen->rate)),
-            "none beside forces.gravity: the thermostat is for needles that fly freely");
-}
-
-// What sliding contact does not know of.
-void require_what_slides(const Scene& scene) {
-  if (!scene.collisions.sliding) {
-    if (!scene.collisions.elastic_strikes) return;
-    refuse_at(place_of(scene, "collisions.elastic_strikes", "true"),
-              "false, or collisions.sliding = true: only needles in contact are struck");
-  }
-  const auto refuse = [&](const std::string& reason) {
-    refuse_at(place_of(scene, "collisions.sliding", "true"), reason);
-  };
-  const Composition composition = scene.composition();
-  if (composition.is_rough())
-    refuse("false, or beta = -1: needles slide on each other without friction only");
-  if (composition.has_width()) refuse("false, as rods of finite width do not slide");
-  if (scene.collisions.tc || scene.collisions.tc_relative)
-    refuse("either sliding or a contact time, tc or tc_relative: both replace the same bounces");
 }
 
 }  // namespace
@@ -214,22 +105,5 @@ bool has_gravity_along_periodic(const Scene& scene) {
 }
 
 std::string name_of(const Scene::Wall& wall) { return wall.axis + "-" + wall.side; }
-
-void require_compatible_effects(const Scene& scene) {
-  require_one_wall_a_side(scene);
-  require_thermal_walls_at_rest(scene);
-  require_gravity_to_walls(scene);
-  require_thermostat_without_gravity(scene);
-  require_what_slides(scene);
-}
-
-void require_walls_to_observe(const Scene& scene) {
-  if (!scene.walls.empty()) return;
-  for (const std::string& name : scene.output.observables) {
-    if (std::ranges::find(wall_observable_names, name) == wall_observable_names.end()) continue;
-    refuse_at(place_of(scene, "output.observables", quoted(name)),
-              fmt::format("an entry [[walls]] for {}, which is along axes with walls", name));
-  }
-}
 
 }  // namespace needlework

@@ -61,10 +61,4 @@ bool has_gravity_along_periodic(const Scene& scene);
 /// "x-low": how messages and `--set` name an entry [[walls]].
 std::string name_of(const Scene::Wall& wall);
 
-/// Throws InputError, "PLACE: expected ...", where walls, forces and driving do not go together.
-/// Each value on its own must be in its range.
-void require_compatible_effects(const Scene& scene);
-/// The same where output.observables names what only axes with walls have.
-void require_walls_to_observe(const Scene& scene);
-
 }  // namespace needlework

@@ -16,7 +16,6 @@
 #include "src/scene/confinement.h"
 #include "src/scene/rod_grid.h"
 #include "src/scene/rod_lattice.h"
-#include "src/scene/scene_values.h"
 
 namespace needlework {
 namespace {

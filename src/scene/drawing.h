@@ -9,7 +9,7 @@
 
 namespace needlework {
 
-// The scene is one that can be drawn, see require_drawable(). All are pure functions of its seed.
+// The scene is one that can be drawn, see src/scene/validity.h. All are pure functions of its seed.
 
 /// Needles with their velocities: the equilibrium of an ideal gas.
 State draw_needles(const Scene& scene);

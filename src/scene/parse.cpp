@@ -15,16 +15,12 @@
 #include <vector>
 
 #include "needlework/error.h"
-#include "src/composition/pair_name.h"
-#include "src/scene/bodies.h"
-#include "src/scene/box_edges.h"
-#include "src/scene/confinement.h"
-#include "src/scene/derived_numbers.h"
 #include "src/scene/document.h"
 #include "src/scene/overridden_scene.h"
 #include "src/scene/printable.h"
 #include "src/scene/schema.h"
 #include "src/scene/text_input.h"
+#include "src/scene/validity.h"
 
 namespace needlework {
 namespace {
@@ -35,8 +31,9 @@ std::string full_name(const Entry& entry) {
 
 // Sections that occur several times, each time with a name by which overrides mean it: that of a
 // species, "a-b" for a pair, "z-low" for a wall.
-bool may_occur_again(std::string_view section) {
-  return section == "species" || section == "pairs" || section == "walls";
+bool may_occur_again(std::string_view name) {
+  const SceneSection* section = find_scene_section(name);
+  return section && section->is_repeated();
 }
 
 // Whether a value of the key is part of that name.
@@ -47,10 +44,7 @@ bool names_item(const Entry& entry) {
 }
 
 // The same for keys of different occurrences only if they are of the first.
-std::string own_name(const Entry& entry) {
-  const std::string name = full_name(entry);
-  return entry.number == 0 ? name : fmt::format("{}#{}", name, entry.number);
-}
+std::string own_name(const Entry& entry) { return key_of_entry(full_name(entry), entry.number); }
 
 std::string item_of(const Entry& entry) {
   if (const auto* name = entry.value.as<std::string>()) return *name;
@@ -100,34 +94,24 @@ std::vector<Entry> with_items_found(const Document& document) {
   return out;
 }
 
-// Keys of which a scene has one, as both would say the same thing.
-constexpr std::pair<const char*, const char*> alternatives[] = {
-    {"collisions.tc", "collisions.tc_relative"},
-    {"output.series_per_decade", "output.series_every"},
-    {"output.frames", "output.frames_every"}};
-
-// The alternative to a key; "" if it has none.
-std::string_view alternative_to(std::string_view name) {
-  for (const auto& [one, other] : alternatives) {
-    if (name == one) return other;
-    if (name == other) return one;
-  }
-  return "";
+// Whether a key is what an exclusion names: the key, or any one of a section.
+bool is_named(std::string_view key, std::string_view name) {
+  return name.ends_with('.') ? key.starts_with(name) : key == name;
 }
 
-// Whether an override replaces an earlier entry: one of the same key, or the alternative in the
-// file (see parse_scene).
+// Whether an override replaces an earlier entry: one of the same key, or one in the file that the
+// key excludes (see parse_scene).
 bool replaces(const Entry& override_entry, const Entry& entry) {
   if (entry.is_head) return false;
   const std::string name = full_name(entry), override_name = full_name(override_entry);
   if (name == override_name) return entry.number == override_entry.number;
   if (entry.is_override) return false;
-  if (name == alternative_to(override_name)) return true;
-  if (override_name == "initial.file") {
-    return name == "initial.t_tr" || name == "initial.t_rot" || name == "species.t_tr" ||
-           name == "species.t_rot";
-  }
-  return false;
+  return std::ranges::any_of(scene_exclusions(), [&](const Exclusion& each) {
+    if (each.replaces == Replaces::neither) return false;
+    if (is_named(override_name, each.one) && is_named(name, each.other)) return true;
+    return each.replaces == Replaces::each_the_other && is_named(override_name, each.other) &&
+           is_named(name, each.one);
+  });
 }
 
 bool is_none(const Value& value) {
@@ -150,32 +134,24 @@ std::vector<Entry> with_overrides_applied(const std::vector<Entry>& entries) {
   return result;
 }
 
-// Begins an entry [[species]], [[pairs]] or [[walls]].
+// Begins an entry of a section that may occur again.
 void begin_again(Scene& scene, const Document& document, const Entry& head) {
   if (!head.is_repeated)
     throw document.error(head, fmt::format("expected [[{}]], in double brackets", head.section));
-  const auto begin = [&](auto& all, std::size_t most) {
-    if (all.size() == most)
-      throw document.error(head, fmt::format("expected at most {} entries", most));
-    all.emplace_back();
-  };
-  if (head.section == "species") begin(scene.species, most_species);
-  if (head.section == "pairs") begin(scene.pairs, most_species * (most_species + 1) / 2);
-  if (head.section == "walls") begin(scene.walls, most_walls);
+  const Entries& entries = find_scene_section(head.section)->entries;
+  if (entries.count(scene) == entries.most)
+    throw document.error(head, fmt::format("expected at most {} entries", entries.most));
+  entries.append(scene);
 }
 
 // Reads the value of a key. Keys of sections that occur again are read into the last of them.
 bool read_value(Scene& scene, const SceneKey& key, const Entry& entry) {
-  const auto into = [&](auto& all) {
-    std::swap(all[entry.number], all.back());
-    const bool read = key.read(scene, entry.value);
-    std::swap(all[entry.number], all.back());
-    return read;
-  };
-  if (entry.section == "species") return into(scene.species);
-  if (entry.section == "pairs") return into(scene.pairs);
-  if (entry.section == "walls") return into(scene.walls);
-  return key.read(scene, entry.value);
+  const SceneSection& section = *find_scene_section(entry.section);
+  if (!section.is_repeated()) return key.read(scene, entry.value);
+  section.entries.swap_with_last(scene, entry.number);
+  const bool read = key.read(scene, entry.value);
+  section.entries.swap_with_last(scene, entry.number);
+  return read;
 }
 
 // k of rods follows from their shape, where neither it nor their inertia is given.
@@ -185,7 +161,7 @@ void adopt_shapes(Scene& scene, const std::set<std::string>& given) {
   for (std::size_t n = 0; n < scene.species.size(); ++n) {
     Species& species = scene.species[n];
     const bool is_rod = species.diameter > 0 && species.turns();
-    if (is_rod && !given.contains(key_of_species("k", n)) && !species.given_inertia)
+    if (is_rod && !given.contains(key_of_entry("species.k", n)) && !species.given_inertia)
       species.k = homogeneous_k(species.length, species.diameter);
   }
 }
@@ -216,66 +192,59 @@ bool describes_state(const std::string& name) {
 
 // The requirement that a key violates because of what the caller provides or because an earlier
 // key excludes it; empty if there is none.
-std::string conflict(const std::string& name, const std::set<std::string>& given,
-                     Provided provided) {
+std::string_view conflict(const std::string& name, const std::set<std::string>& given,
+                          Provided provided) {
   if (provided.state && describes_state(name)) return "expected none, as the state is given apart";
-  const auto has = [&](const char* other) { return given.contains(other); };
-  for (const auto& [one, other] : alternatives) {
-    if ((name == one && has(other)) || (name == other && has(one))) {
-      const auto key_of = [](std::string_view full) { return full.substr(full.find('.') + 1); };
-      return fmt::format("expected either {} or {}, not both", key_of(one), key_of(other));
-    }
+  const auto is_given = [&](std::string_view key) {
+    return std::ranges::any_of(given, [&](const std::string& each) { return is_named(each, key); });
+  };
+  for (const Exclusion& each : scene_exclusions()) {
+    if ((is_named(name, each.one) && is_given(each.other)) ||
+        (is_named(name, each.other) && is_given(each.one)))
+      return each.expected;
   }
-  if ((name == "initial.file" && (has("initial.t_tr") || has("initial.t_rot"))) ||
-      ((name == "initial.t_tr" || name == "initial.t_rot") && has("initial.file")))
-    return "expected either file or temperatures to draw, not both";
-  const bool of_species = name.starts_with("species.");
-  for (const char* key :
-       {"needles.count", "needles.k", "needles.diameter", "initial.t_tr", "initial.t_rot"}) {
-    const bool species_given =
-        std::any_of(given.begin(), given.end(),
-                    [](const std::string& other) { return other.starts_with("species."); });
-    if ((of_species && has(key)) || (name == key && species_given))
-      return "expected either [[species]] or needles.count, needles.k, needles.diameter and the "
-             "temperatures of [initial], not both";
-  }
-  if (((name == "species.t_tr" || name == "species.t_rot") && has("initial.file")) ||
-      (name == "initial.file" && (has("species.t_tr") || has("species.t_rot"))))
-    return "expected either file or temperatures to draw, not both";
   return {};
+}
+
+// Whether an entry gives a key of the table that this key is of.
+bool has_table(const SceneKey& key, std::size_t entry, const std::set<std::string>& given) {
+  const std::string_view table = key.key.substr(0, key.key.find('.') + 1);
+  return std::ranges::any_of(find_scene_section(key.section)->keys, [&](const SceneKey& other) {
+    return other.key.starts_with(table) &&
+           given.contains(key_of_entry(fmt::format("{}.{}", key.section, other.key), entry));
+  });
 }
 
 void require_what_is_needed(const Scene& scene, const Document& document,
                             const std::set<std::string>& given, Provided provided) {
-  const bool has_state = provided.state || !scene.initial.file.empty();
-  const auto require = [&](const char* section, const char* key, std::size_t number) {
-    Entry entry;
-    entry.section = section;
-    entry.key = key;
-    entry.number = number;
-    if (given.contains(own_name(entry))) return;
-    const std::string which = number == 0 ? "" : fmt::format(" of the entry {}", number + 1);
-    throw document.missing(full_name(entry) + which,
-                           fmt::format("expected {}", find_scene_key(section, key)->expected));
+  const auto require = [&](const SceneKey& key, std::size_t entry) {
+    const std::string name = fmt::format("{}.{}", key.section, key.key);
+    if (given.contains(key_of_entry(name, entry))) return;
+    const std::string which = entry == 0 ? "" : fmt::format(" of the entry {}", entry + 1);
+    throw document.missing(name + which, fmt::format("expected {}", key.expected));
   };
-  if (!has_state) {
-    if (scene.species.empty()) require("needles", "count", 0);
-    for (std::size_t n = 0; n < scene.species.size(); ++n) require("species", "count", n);
-    require("needles", "box", 0);
+  const auto entries_of = [&](const SceneSection& section) {
+    return section.is_repeated() ? section.entries.count(scene) : 1;
+  };
+  if (!provided.state && scene.initial.file.empty()) {
+    for (const std::string_view name : {"count", "box"}) {
+      for (const SceneSection& section : scene_schema()) {
+        for (const SceneKey& key : section.keys) {
+          if (key.presence != Presence::to_draw || key.key != name) continue;
+          if (!scene.species.empty() && is_replaced_by_species(key)) continue;
+          for (std::size_t n = 0; n < entries_of(section); ++n) require(key, n);
+        }
+      }
+    }
   }
-  for (std::size_t n = 0; n < scene.species.size(); ++n) require("species", "name", n);
-  for (std::size_t n = 0; n < scene.pairs.size(); ++n) require("pairs", "between", n);
-  for (std::size_t n = 0; n < scene.walls.size(); ++n) {
-    require("walls", "axis", n);
-    require("walls", "side", n);
-    if (!scene.walls[n].motion) continue;
-    require("walls", "motion.amplitude", n);
-    require("walls", "motion.frequency", n);
-  }
-  if (scene.driving.kicks) require("driving", "kicks.every", 0);
-  if (scene.driving.andersen) {
-    require("driving", "andersen.rate", 0);
-    require("driving", "andersen.temperature", 0);
+  for (const SceneSection& section : scene_schema()) {
+    for (std::size_t n = 0; n < entries_of(section); ++n) {
+      for (const SceneKey& key : section.keys) {
+        if (key.presence != Presence::required) continue;
+        const bool is_of_table = key.key.find('.') != key.key.npos;
+        if (!is_of_table || has_table(key, n, given)) require(key, n);
+      }
+    }
   }
   const Scene::Until& until = scene.until;
   if (provided.end) return;
@@ -283,69 +252,6 @@ void require_what_is_needed(const Scene& scene, const Document& document,
     throw document.missing("an end condition in [until]",
                            "expected one or more of time, collisions_per_needle, energy_ratio, "
                            "wall_s");
-}
-
-// What is told of each two species names them "a-b", which must not stand for two pairs.
-void require_names_of_pairs(const Scene& scene, const Document& document,
-                            std::span<const Entry> entries) {
-  const Composition composition = scene.composition();
-  std::set<std::string> pairs;
-  for (const Entry& entry : entries) {
-    if (entry.section != "species") continue;
-    for (std::size_t other = 0; other <= entry.number; ++other) {
-      std::string name = pair_name(composition, other, entry.number);
-      if (pairs.insert(name).second) continue;
-      throw document.error(
-          entry, fmt::format("expected a name with which only one pair of species is called {}",
-                             printable(name, 200)));
-    }
-  }
-}
-
-// Species have different names, and pairs the names of species, each pair once.
-void require_names(const Scene& scene, const Document& document, std::span<const Entry> entries) {
-  const auto same_pair = [](const Scene::Pair& a, const Scene::Pair& b) {
-    return a.between == b.between || (a.between[0] == b.between[1] && a.between[1] == b.between[0]);
-  };
-  for (std::size_t n = 0; n < entries.size(); ++n) {
-    if (entries[n].section != "species") continue;
-    for (const Entry& before : entries.first(n)) {
-      if (before.section != "species") continue;
-      if (scene.species[before.number].name == scene.species[entries[n].number].name)
-        throw document.error(entries[n], "expected a name that no other species has");
-    }
-  }
-  require_names_of_pairs(scene, document, entries);
-  for (const Entry& entry : entries) {
-    if (full_name(entry) != "pairs.between") continue;
-    const Scene::Pair& pair = scene.pairs[entry.number];
-    for (std::size_t n = 0; n < entry.number; ++n) {
-      if (same_pair(scene.pairs[n], pair))
-        throw document.error(entry, "expected each two species once");
-    }
-  }
-}
-
-// All species together have as many needles as there are ids.
-void require_ids(const Scene& scene, const Document& document, const Entry& last_count) {
-  const std::uint64_t count = scene.composition().count();
-  if (count <= most_needles) return;
-  throw document.error(last_count, fmt::format("expected at most {} needles of all species, not {}",
-                                               most_needles, count));
-}
-
-// For a state that is drawn: what follows from its numbers.
-void require_followable(const Scene& scene, std::string_view name) {
-  const Composition composition = scene.composition();
-  if (is_too_sparse(scene.needles.box, static_cast<double>(composition.count()),
-                    composition.longest())) {
-    throw InputError(
-        fmt::format("{}: expected {}", scene.places.at("needles.box"), not_too_sparse));
-  }
-  const std::string reason = out_of_range(numbers_of_drawn(scene));
-  if (reason.empty()) return;
-  throw InputError(
-      fmt::format("{}: its needles and temperatures give {}", printable(name), reason));
 }
 
 // As --set gives them.
@@ -377,10 +283,8 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
                                  printable(name), max_scene_bytes));
   const Document document(text, name, overrides);
   Scene scene;
-  std::set<std::string> given;       // own names, so that each entry of a list has its keys
-  std::set<std::string> given_keys;  // those of all entries of a list alike
-  Entry last_count;
-  std::vector<Entry> names;
+  std::vector<std::string> in_order;  // own names, so that each entry of a list has its keys
+  std::set<std::string> given_keys;   // full names, those of all entries of a list alike
   for (const Entry& entry : with_overrides_applied(with_items_found(document))) {
     if (entry.is_head) {
       if (!is_scene_section(entry.section)) throw document.error(entry, expected_instead(entry));
@@ -395,33 +299,29 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
     if (may_occur_again(entry.section) && !entry.is_repeated && !entry.is_override)
       throw document.error(entry,
                            fmt::format("expected a scene with an entry [[{}]]", entry.section));
-    if (full_name(entry) == "species.count") last_count = entry;
-    if (full_name(entry) == "species.name" || entry.section == "pairs") names.push_back(entry);
     if (!read_value(scene, *key, entry))
       throw document.error(entry, key->expected_instead_of(entry.value));
-    if (const std::string reason = conflict(full_name(entry), given_keys, provided);
-        !reason.empty())
+    if (const auto reason = conflict(full_name(entry), given_keys, provided); !reason.empty())
       throw document.error(entry, reason);
     given_keys.insert(full_name(entry));
-    given.insert(own_name(entry));
+    in_order.push_back(own_name(entry));
     scene.places[own_name(entry)] = document.place(entry);
   }
-  require_names(scene, document, names);
-  require_ids(scene, document, last_count);
+  const std::set<std::string> given(in_order.begin(), in_order.end());
   adopt_shapes(scene, given);
+  const SceneOrigin origin{.name = name, .given = in_order};
   // A state that is given may say what the scene does not: see adopt_state().
   const bool is_drawn = !provided.state && scene.initial.file.empty();
-  if (is_drawn) require_possible_bodies(scene);
-  // Where there are walls, the room depends on what they need.
-  const bool box_given = given.contains("needles.box"), walled = !scene.walls.empty();
-  if (is_drawn && box_given && !walled) require_room_in_box(scene);
+  // Values before what is missing; where there are walls, the room depends on what they need.
+  if (is_drawn) require_rules(scene, Aspect::bodies, origin);
+  if (is_drawn && given.contains("needles.box") && scene.walls.empty())
+    require_rules(scene, Aspect::room, origin);
   require_what_is_needed(scene, document, given, provided);
-  if (is_drawn || !scene.species.empty()) require_pairs_of_species(scene);
-  require_compatible_effects(scene);
-  require_walls_to_observe(scene);
-  if (is_drawn && box_given && walled) require_room_in_box(scene);
+  Aspects known = Aspect::species | Aspect::walls | Aspect::effects | Aspect::output;
+  if (is_drawn) known = known | Aspect::room | Aspect::start;
+  if (is_drawn || !scene.species.empty()) known = known | Aspect::pairs;
+  require_rules(scene, known, origin);
   adopt_species(scene, is_drawn);
-  if (is_drawn) require_followable(scene, name);
   scene.text = annotated(text, overrides);
   return scene;
 }
@@ -478,6 +378,7 @@ void override_until(Scene& scene, std::span<const std::string> overrides) {
     }
     scene.places[full_name(entry)] = document.place(entry);
   }
+  require_rules(scene, Aspect::effects);
 }
 
 std::string read_scene_text(const std::string& path) {

@@ -1,7 +1,5 @@
 #include "src/scene/rod_room.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -9,10 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "needlework/error.h"
 #include "src/composition/convex_body.h"
-#include "src/scene/check.h"
-#include "src/scene/confinement.h"
 
 namespace needlework {
 namespace {
@@ -54,21 +49,6 @@ double densest_packing(const Composition& composition) {
     left *= 1 - densest_packing(each);
   }
   return 1 - left;
-}
-
-void require_room_for_rods(const Scene& scene) {
-  const Composition composition = scene.composition();
-  for (const Gap& gap : gaps_of(scene)) {
-    if (gap.is_open()) return;  // there is room beyond the edge of the box
-  }
-  const auto& box = scene.needles.box;
-  const double packing = composition.packing_fraction(box[0] * box[1] * box[2]),
-               most = densest_packing(composition);
-  if (!(packing > most)) return;
-  throw InputError(fmt::format(
-      "{}: {} {} take up {:.4g} of it, and no packing more than {:.4g}: expected a larger box",
-      place_of(scene, "needles.box", fmt::format("[{}, {}, {}]", box[0], box[1], box[2])),
-      composition.count(), composition.are_spheres() ? "spheres" : "rods", packing, most));
 }
 
 double estimated_tries(const Composition& composition, double volume) {

@@ -12,9 +12,6 @@ namespace needlework {
 /// each takes up as much of what the others leave. [1]
 double densest_packing(const Composition& composition);
 
-/// Throws InputError for rods that take up more of the box than that.
-void require_room_for_rods(const Scene& scene);
-
 /// Tries of a rod, on average, when rods are inserted one by one, the largest first: by the scaled
 /// particle theory of a fluid of convex bodies (R. M. Gibbons, Mol. Phys. 17, 81 (1969)), in which
 /// rods are less in each other's way than where they have been inserted. Infinite for a packing

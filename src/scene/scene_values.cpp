@@ -3,21 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <utility>
 
-#include "needlework/error.h"
-#include "needlework/parse.h"
-#include "src/scene/bodies.h"
-#include "src/scene/box_edges.h"
-#include "src/scene/confinement.h"
-#include "src/scene/derived_numbers.h"
 #include "src/scene/printable.h"
 #include "src/scene/scene_members.h"
-#include "src/scene/schema.h"
+#include "src/scene/section.h"
 
 namespace needlework {
 namespace {
@@ -92,73 +84,6 @@ class Collected {
   }
 };
 
-// As messages quote it.
-std::string quoted(const Value& value) {
-  if (const auto* truth = value.as<bool>()) return *truth ? "true" : "false";
-  if (const auto* whole = value.as<std::int64_t>()) return fmt::to_string(*whole);
-  if (const auto* real = value.as<double>()) return fmt::to_string(*real);
-  if (const auto* text = value.as<std::string>()) return '"' + printable(*text, 60) + '"';
-  std::vector<std::string> elements;
-  for (const Value& element : *value.as<Value::Array>()) elements.push_back(quoted(element));
-  return printable(fmt::format("[{}]", fmt::join(elements, ", ")), 60);
-}
-
-void refuse(std::string_view what, std::string_view expected) {
-  throw InputError(fmt::format("the scene: {}: expected {}", what, expected));
-}
-
-// Of the keys for which is_looked_at(section, key) holds.
-template <class Predicate>
-void require_in_range(const Scene& scene, Predicate&& is_looked_at) {
-  Scene again = scene;
-  if (again.species.empty()) again.species.emplace_back();
-  if (again.pairs.empty()) again.pairs.emplace_back();
-  if (again.walls.empty()) again.walls.emplace_back();
-  for (const auto& [section, name, value] : values_of(scene)) {
-    const SceneKey* key = find_scene_key(section, name);
-    if (!is_looked_at(section, name) || key->read(again, value)) continue;
-    throw InputError(fmt::format("the scene: {}{}{} = {}: {}", section, section.empty() ? "" : ".",
-                                 name, quoted(value), key->expected_instead_of(value)));
-  }
-}
-
-bool is_among(std::string_view name, std::initializer_list<std::string_view> names) {
-  return std::ranges::find(names, name) != names.end();
-}
-
-void require_one_contact_time(const Scene::Collisions& collisions) {
-  if (collisions.tc && collisions.tc_relative)
-    refuse("collisions", "either tc or tc_relative, not both");
-}
-
-// That species can be told apart, and that pairs are of them.
-void require_names(const Scene& scene) {
-  if (scene.species.size() > most_species)
-    refuse("species", fmt::format("at most {}", most_species));
-  const auto with_name = [&](const std::string& name) {
-    return std::ranges::count(scene.species, name, &Species::name);
-  };
-  for (const Species& each : scene.species) {
-    if (scene.species.size() > 1 && with_name(each.name) != 1)
-      refuse(fmt::format("species.name = {}", quoted(toml_of(each.name))),
-             "a name that no other species has");
-  }
-  for (const Scene::Pair& pair : scene.pairs) {
-    for (const std::string& name : pair.between) {
-      if (with_name(name) == 0)
-        refuse(fmt::format("pairs.between = {}", quoted(toml_of(pair.between))),
-               "names of two species");
-    }
-  }
-}
-
-void require_room(const Scene& scene) {
-  const Room room(scene);
-  if (!room.holds(scene.needles.box))
-    refuse(fmt::format("needles.box = {}", quoted(toml_of(scene.needles.box))),
-           room.expected_instead_of(scene.needles.box));
-}
-
 }  // namespace
 
 std::vector<KeyValue> values_of(const Scene& scene) {
@@ -167,48 +92,14 @@ std::vector<KeyValue> values_of(const Scene& scene) {
   return std::move(collected.values);
 }
 
-void require_simulable(const Scene& scene) {
-  require_in_range(scene, [&](std::string_view section, std::string_view key) {
-    if (section == "species") return is_among(key, {"length", "mass", "k", "diameter", "inertia"});
-    if (section == "needles") return is_among(key, {"k", "diameter"}) && scene.species.empty();
-    return section == "collisions" || section == "pairs" || section == "walls" ||
-           section == "forces" || section == "driving" || section == "engine";
-  });
-  require_one_contact_time(scene.collisions);
-  require_names(scene);
-  require_possible_bodies(scene);
-  require_compatible_effects(scene);
-}
-
-void require_drawable(const Scene& scene) {
-  require_in_range(scene, [&](std::string_view section, std::string_view key) {
-    if (section == "species") return key != "name";
-    if (section == "needles")
-      return key == "box" || (is_among(key, {"count", "k", "diameter"}) && scene.species.empty());
-    if (section == "walls") return true;
-    return section == "initial" && key != "file" && scene.species.empty();
-  });
-  require_possible_bodies(scene);
-  require_room(scene);
-  const Composition composition = scene.composition();
-  if (is_too_sparse(scene.needles.box, static_cast<double>(composition.count()),
-                    composition.longest()))
-    refuse(fmt::format("needles.box = {}", quoted(toml_of(scene.needles.box))), not_too_sparse);
-  if (const std::string reason = out_of_range(numbers_of_drawn(scene)); !reason.empty())
-    throw InputError("the scene: its needles and temperatures give " + reason);
-}
-
-void require_valid(const Scene& scene) {
-  require_in_range(scene, [](std::string_view, std::string_view) { return true; });
-  require_one_contact_time(scene.collisions);
-  require_possible_bodies(scene);
-  require_compatible_effects(scene);
-  require_walls_to_observe(scene);
-  require_room(scene);
-  require_names(scene);
-  if (scene.composition().count() != scene.needles.count)
-    refuse("species", "the count of [needles]");
-  if (scene.text.size() > max_scene_bytes) refuse("text", "at most 1 MiB");
+std::string quoted(const Value& value) {
+  if (const auto* truth = value.as<bool>()) return *truth ? "true" : "false";
+  if (const auto* whole = value.as<std::int64_t>()) return fmt::to_string(*whole);
+  if (const auto* real = value.as<double>()) return fmt::to_string(*real);
+  if (const auto* text = value.as<std::string>()) return quoted(*text);
+  std::vector<std::string> elements;
+  for (const Value& element : *value.as<Value::Array>()) elements.push_back(quoted(element));
+  return printable(fmt::format("[{}]", fmt::join(elements, ", ")), 60);
 }
 
 }  // namespace needlework

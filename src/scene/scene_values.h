@@ -20,14 +20,7 @@ struct KeyValue {
 /// others those that are set.
 std::vector<KeyValue> values_of(const Scene& scene);
 
-// These throw InputError, "the scene: SECTION.KEY = VALUE: expected ...", for a value that a scene
-// file could not hold.
-
-/// For what the engine reads of every scene: the needles' properties, [collisions] and [engine].
-void require_simulable(const Scene& scene);
-/// For what an initial state is drawn from, but the seed, which may be any.
-void require_drawable(const Scene& scene);
-/// For all keys of a scene that was restored from a file, which may be damaged.
-void require_valid(const Scene& scene);
+/// A value as messages quote it.
+std::string quoted(const Value& value);
 
 }  // namespace needlework

@@ -1,43 +1,27 @@
-// The keys that a scene file may contain, and the requirements on their values.
+// What a scene may say: all sections, with their keys and rules.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
-#include "needlework/scene.h"
-#include "src/scene/document.h"
+#include "src/scene/section.h"
 
 namespace needlework {
 
-/// A word that is not known, and the known one that is most similar, or empty.
-struct UnknownWord {
-  std::string word;
-  std::string_view nearest;
-};
-
-/// One key of a scene file.
-struct SceneKey {
-  std::string_view section;  ///< empty for a key outside all sections
-  std::string_view key;
-  std::string_view expected;  ///< the requirement on the value, for messages
-  /// Stores the value in the scene. Returns false, and leaves the scene unchanged, if the value
-  /// does not meet the requirement.
-  bool (*read)(Scene& scene, const Value& value);
-  /// What is wrong with a value that was refused, if more can be said than the requirement: the
-  /// word in it that is not known.
-  std::optional<UnknownWord> (*unknown_word)(const Value& value) = nullptr;
-
-  /// For the message about a value that was refused: "expected ...".
-  std::string expected_instead_of(const Value& value) const;
-};
-
-/// All keys, in the order of their documentation.
+/// All sections, keys and exclusions, in the order of their documentation; the first section, of
+/// what is outside of all others, has no name. Rules come in the order in which they are asked:
+/// what a rule builds on is asked first.
+std::span<const SceneSection> scene_schema();
 std::span<const SceneKey> scene_keys();
+std::span<const SceneRule> scene_rules();
+std::span<const Exclusion> scene_exclusions();
+/// The names of all sections but the first.
+std::span<const std::string_view> scene_sections();
 
-/// The key of that name, or null if there is none.
+/// The key, or the section, of that name; null if there is none.
 const SceneKey* find_scene_key(std::string_view section, std::string_view key);
+const SceneSection* find_scene_section(std::string_view name);
 
 bool is_scene_section(std::string_view section);
 
@@ -45,14 +29,14 @@ bool is_scene_section(std::string_view section);
 /// `kicks = { every = 1 }`.
 bool is_scene_table(std::string_view section, std::string_view key);
 
-/// Limit of the number of entries [[walls]]: one at each side of the box.
-inline constexpr std::size_t most_walls = 6;
+/// Whether a scene with entries [[species]] says this key of each of them instead.
+bool is_replaced_by_species(const SceneKey& key);
+
+/// Gives each section that occurs several times one entry at least, so that its keys can be read.
+void have_entries(Scene& scene);
 
 /// Whether the value meets the requirement of the key.
 bool accepts(const SceneKey& key, const Value& value);
-
-/// All sections, in the order of their documentation.
-std::span<const std::string_view> scene_sections();
 
 /// What to expect instead of an unknown section, an unknown key, or a section that is not a table:
 /// "expected ..., did you mean ...?".

@@ -392,8 +392,8 @@ TEST(RodPacking, SaysWhatItCannotPlace) {
   Scene scene = rods_of(23, 0, 0.5);
   scene.needles.box = {2.5, 2.5, 2.5};
   EXPECT_EQ(refusal(scene),
-            "needles.box = [2.5, 2.5, 2.5]: 23 spheres take up 0.7707 of it, and no packing more "
-            "than 0.7405: expected a larger box");
+            "the scene: needles.box = [2.5, 2.5, 2.5]: 23 spheres take up 0.7707 of it, and no "
+            "packing more than 0.7405: expected a larger box");
   EXPECT_EQ(refusal(rods_of(13, 0, 0.73)),
             "initial.packing = \"auto\": no lattice of spheres has room for 13 spheres at a "
             "packing fraction of 0.73: expected a larger box, or edges that fit them better");

@@ -485,7 +485,7 @@ TEST(SceneMadeInCode, IsRefusedWithNumbersOutOfRange) {
          s.needles.box = {6, nan, 6};
        },
        true},
-      {"needles.box = [6, 6, 2]: expected edges of at least 2.01",
+      {"needles.box = [6, 6, 2]: expected an edge from 2.01 to 1e9, or an array of three edges",
        [](Scene& s) {
          s.needles.box = {6, 6, 2};
        },

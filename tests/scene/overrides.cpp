@@ -87,6 +87,23 @@ TEST(Override, RemovesAnEnd) {
             "--set collisions.tc=none: expected a tim");
 }
 
+// Also of a run that is resumed.
+TEST(Override, OfAnEndIsRefusedWhereTheSceneCannotHaveIt) {
+  Scene scene = parse({},
+                      "forces.gravity = [1, 0, 0]\n[[walls]]\naxis = 'z'\nside = 'both'\n"
+                      "temperature = 2\n");
+  override_until(scene, Overrides{"until.time=6"});
+  EXPECT_EQ(scene.until.time, 6);
+  try {
+    override_until(scene, Overrides{"until.energy_ratio=0.1"});
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "--set until.energy_ratio=0.1: expected another end, such as time: gravity along a "
+              "periodic axis does work all the time, which thermal walls take out");
+  }
+}
+
 TEST(Override, CannotChooseBothAlternatives) {
   EXPECT_EQ(message_of_overrides({"collisions.tc=0.1", "collisions.tc_relative=1"}),
             "--set collisions.tc_relative=1: expected either tc or tc_relative, not both");

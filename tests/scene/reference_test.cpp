@@ -10,10 +10,10 @@
 namespace needlework {
 namespace {
 
-using Keys = std::set<std::string>;  // "section.key", ".title"
+using KeyNames = std::set<std::string>;  // "section.key", ".title"
 
-Keys keys_of_schema() {
-  Keys keys;
+KeyNames keys_of_schema() {
+  KeyNames keys;
   for (const SceneKey& key : scene_keys()) {
     keys.insert(std::string(key.section) + "." + std::string(key.key));
   }
@@ -21,10 +21,10 @@ Keys keys_of_schema() {
 }
 
 // Rows "| `key` | ..." beneath a heading "## [section]", "## [[section]]" or "## Top level".
-Keys keys_of_document() {
+KeyNames keys_of_document() {
   std::ifstream file(NEEDLEWORK_SOURCE "/docs/scenes.md");
   EXPECT_TRUE(file) << NEEDLEWORK_SOURCE "/docs/scenes.md cannot be read";
-  Keys keys;
+  KeyNames keys;
   std::string section;
   for (std::string line; std::getline(file, line);) {
     if (line.starts_with("## [")) {

@@ -11,6 +11,7 @@
 #include "needlework/parse.h"
 #include "src/scene/scene_values.h"
 #include "src/scene/schema.h"
+#include "src/scene/validity.h"
 
 namespace needlework {
 namespace {
@@ -90,7 +91,7 @@ TEST(RestoredScene, HasAllKeys) {
                            "initial.file = \"state.h5\"\n"
                            "collisions.tc_relative = 1"}) {
     const Scene scene = parse_scene(text, "scene.toml");
-    EXPECT_NO_THROW(require_valid(scene)) << text;
+    EXPECT_NO_THROW(require_restored(scene)) << text;
     for (const auto& [section, key, value] : values_of(scene)) {
       seen.insert(std::string(section) + "." + std::string(key));
     }
@@ -106,7 +107,7 @@ TEST(RestoredScene, IsAcceptedIfItWasParsed) {
     if (file.path().extension() != ".toml" ||
         file.path().string().find("sweep") != std::string::npos)
       continue;
-    EXPECT_NO_THROW(require_valid(read_scene(file.path().string()))) << file.path();
+    EXPECT_NO_THROW(require_restored(read_scene(file.path().string()))) << file.path();
   }
 }
 
@@ -115,7 +116,7 @@ TEST(RestoredScene, IsRefusedIfNoFileCouldDescribeIt) {
     Scene scene = parse_scene(text, "scene.toml");
     change(scene);
     try {
-      require_valid(scene);
+      require_restored(scene);
     } catch (const InputError& error) {
       return error.what();
     }

@@ -1,0 +1,131 @@
+// [[walls]].
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "src/scene/confinement.h"
+#include "src/scene/read_value.h"
+#include "src/scene/sections/sections.h"
+
+namespace needlework {
+namespace {
+
+constexpr std::size_t most_walls = 6;  // one at each side of the box
+
+// The table is made by the first key of it that is read.
+// clang 14 does not know that emplace() can make what a class nested in another one contains.
+Scene::WallMotion& motion_of(Scene& scene) {
+  auto& motion = scene.walls.back().motion;
+  if (!motion) motion = Scene::WallMotion{};
+  return *motion;
+}
+
+Violation violation_of_side(const Scene& scene, std::size_t entry, std::string reason) {
+  return {.key = key_of_entry("walls.side", entry),
+          .value = quoted(scene.walls[entry].side),
+          .reason = std::move(reason)};
+}
+
+std::optional<Violation> side_has_two_walls(const Scene& scene) {
+  const std::vector<Scene::WallSide> sides = scene.wall_sides();
+  for (auto side = sides.begin(); side != sides.end(); ++side) {
+    const bool is_taken = std::any_of(sides.begin(), side, [&](const Scene::WallSide& other) {
+      return other.axis == side->axis && other.is_high == side->is_high;
+    });
+    if (!is_taken) continue;
+    return violation_of_side(scene, side->entry,
+                             fmt::format("expected no second wall at the {} edge of {}",
+                                         side->is_high ? "high" : "low", "xyz"[side->axis]));
+  }
+  return {};
+}
+
+std::optional<Violation> thermal_wall_moves_or_bounces(const Scene& scene) {
+  for (std::size_t n = 0; n < scene.walls.size(); ++n) {
+    const Scene::Wall& wall = scene.walls[n];
+    if (!wall.temperature) continue;
+    Violation out{.key = key_of_entry("walls.epsilon", n),
+                  .value = fmt::to_string(wall.epsilon),
+                  .reason =
+                      "expected none beside temperature: a thermal wall is at rest, and "
+                      "epsilon and t_c do not apply"};
+    if (wall.epsilon != 1 || scene.places.contains(out.key)) return out;
+    if (!wall.motion) continue;
+    out.key = key_of_entry("walls.motion.amplitude", n);
+    out.value = fmt::to_string(wall.motion->amplitude);
+    return out;
+  }
+  return {};
+}
+
+// Nothing holds needles back on an open side but gravity.
+std::optional<Violation> needles_would_leave(const Scene& scene) {
+  const std::array<Gap, 3> gaps = gaps_of(scene);
+  for (const Scene::WallSide& side : scene.wall_sides()) {
+    const double gravity = scene.forces.gravity[side.axis];
+    if (!gaps[side.axis].is_open() || (side.is_high ? gravity > 0 : gravity < 0)) continue;
+    return violation_of_side(
+        scene, side.entry,
+        fmt::format("expected \"both\", or a second wall along {}, or forces.gravity that points "
+                    "to this one: needles would leave the box at its open side",
+                    "xyz"[side.axis]));
+  }
+  return {};
+}
+
+}  // namespace
+
+SceneSection walls_section() {
+  using namespace from_toml;
+  using V = const Value&;
+  using R = const ValueRange&;
+  return {
+      .name = "walls",
+      .keys =
+          {
+              {"axis",
+               Aspect::walls,
+               {},
+               R"("x", "y" or "z")",
+               [](Scene& s, V v, R) {
+                 return store(s.walls.back().axis, one_of(v, {"x", "y", "z"}));
+               },
+               Presence::required},
+              {"side",
+               Aspect::walls,
+               {},
+               R"("low", "high" or "both")",
+               [](Scene& s, V v, R) {
+                 return store(s.walls.back().side, one_of(v, {"low", "high", "both"}));
+               },
+               Presence::required},
+              {"epsilon", Aspect::walls, restitutions, expected_epsilon,
+               [](Scene& s, V v, R r) { return store(s.walls.back().epsilon, number(v, r)); }},
+              {"temperature", Aspect::walls, temperatures, expected_positive_temperature,
+               [](Scene& s, V v, R r) { return store(s.walls.back().temperature, number(v, r)); }},
+              {"motion.amplitude",
+               Aspect::walls,
+               {0, 1e9},
+               "a length >= 0 (at most 1e9)",
+               [](Scene& s, V v, R r) { return store(motion_of(s).amplitude, number(v, r)); },
+               Presence::required},
+              {"motion.frequency",
+               Aspect::walls,
+               {1 / largest_rate, largest_rate},
+               "a number > 0 of cycles per time (from 1e-100 to 1e100)",
+               [](Scene& s, V v, R r) { return store(motion_of(s).frequency, number(v, r)); },
+               Presence::required},
+              {"motion.phase",
+               Aspect::walls,
+               {-1000, 1000},
+               "an angle in radians, from -1000 to 1000",
+               [](Scene& s, V v, R r) { return store(motion_of(s).phase, number(v, r)); }},
+          },
+      .rules = {{Aspect::effects, side_has_two_walls},
+                {Aspect::effects, thermal_wall_moves_or_bounces},
+                {Aspect::effects, needles_would_leave}},
+      .entries = entries_in<&Scene::walls>(most_walls),
+  };
+}
+
+}  // namespace needlework
