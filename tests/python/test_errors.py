@@ -1,8 +1,10 @@
 """Errors: what is wrong is named as the program names it."""
 
 import copy
+import json
 import os
 import pickle
+import re
 import tempfile
 import unittest
 import warnings
@@ -41,6 +43,17 @@ class Scenes(unittest.TestCase):
             path = Path(folder, "gas.toml")
             path.write_text("needles = { count = 10, box = 1 }")
             self.rejects(path, rf"^{path}: line 1: needles.box = 1: expected")
+
+    def test_words_are_those_of_every_way_in(self):
+        # tests/cli/one_validity_test.cpp reads the same table for the other ways.
+        table = Path(__file__).parent.parent / "scene" / "invalid_scenes.json"
+        for scene in json.loads(table.read_text()):
+            if not scene.get("front_ends", True):
+                continue
+            with self.subTest(scene["rule"]):
+                key = scene.get("file_key", scene["key"])
+                place = rf"line \d+: {re.escape(key)} = .*: " if key else ""
+                self.rejects(scene["text"], f"^scene: {place}{re.escape(scene['message'])}$")
 
     def test_types_of_scenes_are_checked(self):
         self.rejects(5, "^scene = 5: expected a dictionary of sections, TOML text or a path")
