@@ -2,7 +2,7 @@
 # headers and a CMake package, so that
 #   find_package(Needlework)                        find_package(Needlework COMPONENTS core)
 #   target_link_libraries(mine needlework::needlework)            ... needlework::core
-# (or `theory`, which adds that to the core)
+# (or `scenes` or `theory`, which add those to the core)
 # and #include <needlework/simulation.h> work elsewhere; with COMPONENTS c, needlework::c and
 # #include <needlework.h> do, in C too, as they do by pkg-config.
 include(GNUInstallDirs)
@@ -42,6 +42,7 @@ install(DIRECTORY examples TYPE DOC)
 # The man page names documents as docs/NAME.md.
 install(DIRECTORY docs TYPE DOC FILES_MATCHING PATTERN *.md)
 install(TARGETS needlework_core EXPORT NeedleworkCoreTargets)
+install(TARGETS needlework_scenes EXPORT NeedleworkScenesTargets)
 install(TARGETS needlework_theory EXPORT NeedleworkTheoryTargets)
 install(TARGETS needlework EXPORT NeedleworkTargets)
 install(TARGETS needlework_c EXPORT NeedleworkCTargets)
@@ -51,7 +52,7 @@ configure_file(cmake/needlework.pc.in needlework.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/needlework.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Needlework)
-foreach(targets NeedleworkCoreTargets NeedleworkTheoryTargets NeedleworkTargets NeedleworkCTargets)
+foreach(targets NeedleworkCoreTargets NeedleworkScenesTargets NeedleworkTheoryTargets NeedleworkTargets NeedleworkCTargets)
   install(EXPORT ${targets} NAMESPACE needlework:: DESTINATION ${package_folder})
 endforeach()
 configure_package_config_file(cmake/NeedleworkConfig.cmake.in NeedleworkConfig.cmake

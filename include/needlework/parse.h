@@ -10,9 +10,6 @@
 
 namespace needlework {
 
-/// Largest size of a scene that is read [bytes].
-inline constexpr std::size_t max_scene_bytes = std::size_t{1} << 20;
-
 /// What a caller provides in code, so that the text of a scene may leave it out.
 struct Provided {
   bool state = false;  ///< the initial state: count and box may be missing, and are then 0; keys

@@ -14,6 +14,9 @@
 
 namespace needlework {
 
+/// Largest size of the text of a scene [bytes].
+inline constexpr std::size_t max_scene_bytes = std::size_t{1} << 20;
+
 /// What to simulate, in the engine's units: needle length L = 1 and mass m = 1, unless a
 /// species says otherwise. A temperature is then an energy, and times are in L sqrt(m / T). Members
 /// are keys of a scene file, besides those that say where the scene comes from.

@@ -9,7 +9,7 @@
 #include "needlework/error.h"
 #include "needlework/parse.h"
 #include "src/io/formats/read_configuration.h"
-#include "src/scene/document.h"
+#include "src/scene_text/document.h"
 #include "src/scene/schema.h"
 
 namespace needlework::cli {

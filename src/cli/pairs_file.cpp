@@ -15,7 +15,7 @@
 
 #include "needlework/error.h"
 #include "src/io/decimal.h"
-#include "src/scene/text_input.h"
+#include "src/scene_text/text_input.h"
 
 namespace needlework {
 namespace {

@@ -78,6 +78,7 @@ Effects effects_of(const Scene& scene) {
           .contact_time = scene.collisions.tc || scene.collisions.tc_relative,
           .table = !only || !is_unit(composition[*only]),
           .width = composition.has_width(),
+          .spheres = composition.has_width() && composition.are_spheres(),
           .sliding = scene.collisions.sliding,
           .kicks = scene.driving.kicks.has_value(),
           .gravity = has_gravity(scene)};

@@ -21,7 +21,9 @@ namespace needlework {
 ///   `never_overlap`: bodies never pass through each other, so that a lost contact leaves an
 ///     overlap, which first_contact() reports;
 ///   `surface`: the rule of collisions for beta = -1, and whether there are others
-///   (`may_be_rough`); `slides`: bodies may slide on each other (src/physics/sliding_contact.h).
+///     (`may_be_rough`);
+///   `turns`: bodies have a rotation, which collisions change;
+///   `slides`: bodies may slide on each other (src/physics/sliding_contact.h).
 ///
 /// All are pure functions of the pair. They do not depend on when they are called, on the search or
 /// on the thread. Exchanging the bodies and negating the shift changes no bit. None throws.
@@ -44,6 +46,7 @@ concept ContactLaw = requires(const C& contact, const typename C::Pair& pair, do
   { C::never_overlap } -> std::convertible_to<bool>;
   { C::surface } -> std::convertible_to<Surface>;
   { C::may_be_rough } -> std::convertible_to<bool>;
+  { C::turns } -> std::convertible_to<bool>;
   { C::slides } -> std::convertible_to<bool>;
   { contact.first_contact(pair, time, time, spent) } -> std::same_as<kernels::Contact>;
   { contact.gap(pair, elapsed) } -> std::convertible_to<double>;
@@ -58,7 +61,7 @@ class NeedleContact {
   using Pair = kernels::Pair;
   static constexpr bool has_distance = false, never_overlap = false;
   static constexpr Surface surface = Surface::smooth;
-  static constexpr bool may_be_rough = true, slides = false;
+  static constexpr bool may_be_rough = true, turns = true, slides = false;
 
   explicit NeedleContact(const Accuracy& accuracy) : accuracy_(accuracy) {}
   const Accuracy& accuracy() const { return accuracy_; }
@@ -88,7 +91,7 @@ class RodContact {
   using Pair = kernels::RodPair;
   static constexpr bool has_distance = true, never_overlap = true;
   static constexpr Surface surface = Surface::wide;
-  static constexpr bool may_be_rough = false, slides = false;
+  static constexpr bool may_be_rough = false, turns = true, slides = false;
 
   explicit RodContact(const Accuracy& accuracy) : accuracy_(accuracy) {}
   const Accuracy& accuracy() const { return accuracy_; }
@@ -118,7 +121,7 @@ class SphereContact {
   using Pair = kernels::RodPair;
   static constexpr bool has_distance = true, never_overlap = true;
   static constexpr Surface surface = Surface::sphere;
-  static constexpr bool may_be_rough = false, slides = false;
+  static constexpr bool may_be_rough = false, turns = false, slides = false;
 
   explicit SphereContact(const Accuracy& accuracy) : accuracy_(accuracy) {}
   const Accuracy& accuracy() const { return accuracy_; }

@@ -3,10 +3,10 @@
 
 namespace needlework {
 
-/// Four models are compiled: one without any of these, to which they cost nothing, one that asks
-/// for each of them when it runs, that for rods, and that for needles that slide on each other
-/// (src/physics/needle_model.h). Effects that are events of their own are sources of events instead
-/// (src/effects/event_source.h).
+/// Five models are compiled: one without any of these, to which they cost nothing, one that asks
+/// for each of them when it runs, those for rods and for spheres, and that for needles that slide
+/// on each other (src/physics/needle_model.h). Effects that are events of their own are sources of
+/// events instead (src/effects/event_source.h).
 struct Effects {
   bool rough = false;         ///< tangential restitution, beta != -1
   bool contact_time = false;  ///< the t_c rule
@@ -14,13 +14,15 @@ struct Effects {
                               ///< otherwise length and mass are 1
 
   bool width = false;    ///< rods of finite width
+  bool spheres = false;  ///< all of these are spheres
   bool sliding = false;  ///< needles slide on each other
   bool sources = false;  ///< there are sources of events
   bool kicks = false;    ///< the velocities of all needles change at one instant, again and again
   bool gravity = false;  ///< needles fall freely between events
 
   bool any() const {
-    return rough || contact_time || table || width || sliding || sources || kicks || gravity;
+    return rough || contact_time || table || width || spheres || sliding || sources || kicks ||
+           gravity;
   }
 };
 

@@ -8,8 +8,9 @@
 namespace needlework {
 
 /// Infinitely thin needles with normal and tangential restitution or, by another law of contact,
-/// smooth rods of finite width. Without effects they are smooth needles, lengths and masses are 1,
-/// and nothing is looked up by species. With effects, each is asked for when the model runs.
+/// smooth rods of finite width or spheres. Without effects they are smooth needles, lengths and
+/// masses are 1, and nothing is looked up by species. With effects, each is asked for when the
+/// model runs.
 template <bool with_effects, ContactLaw TheLaw = NeedleContact>
 class NeedleModel {
  public:
@@ -21,6 +22,7 @@ class NeedleModel {
   /// Whether the model simulates these effects, all of them and no other one.
   static constexpr bool covers(const Effects& effects) {
     if (Law::has_distance != effects.width || has_sliding != effects.sliding) return false;
+    if (Law::turns == effects.spheres) return false;
     if (effects.rough && !Law::may_be_rough) return false;
     if (effects.contact_time && has_sliding) return false;  // both replace the same bounces
     return has_effects || !effects.any();
@@ -126,9 +128,10 @@ class NeedleModel {
 };
 
 using RodModel = NeedleModel<true, RodContact>;
+using SphereModel = NeedleModel<true, SphereContact>;
 using SlidingModel = NeedleModel<true, SlidingContact>;
 
 static_assert(Model<NeedleModel<false>> && Model<NeedleModel<true>> && Model<RodModel> &&
-              Model<SlidingModel>);
+              Model<SphereModel> && Model<SlidingModel>);
 
 }  // namespace needlework

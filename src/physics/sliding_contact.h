@@ -41,7 +41,7 @@ class SlidingContact {
   using Pair = SlidingPair;
   static constexpr bool has_distance = false, never_overlap = false;
   static constexpr Surface surface = Surface::smooth;
-  static constexpr bool may_be_rough = false, slides = true;
+  static constexpr bool may_be_rough = false, turns = true, slides = true;
 
   explicit SlidingContact(const Accuracy& accuracy) : free_(accuracy) {}
   const Accuracy& accuracy() const { return free_.accuracy(); }

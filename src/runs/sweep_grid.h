@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "needlework/scene.h"
-#include "src/scene/document.h"
+#include "src/scene_text/document.h"
 
 namespace needlework::runs::sweep {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "src/scene/document.h"
+#include "src/scene/entry.h"
 #include "src/scene/section.h"
 
 namespace needlework::from_toml {

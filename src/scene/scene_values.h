@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "needlework/scene.h"
-#include "src/scene/document.h"
+#include "src/scene/entry.h"
 
 namespace needlework {
 

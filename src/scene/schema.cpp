@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "needlework/parse.h"
 #include "src/scene/read_value.h"
 #include "src/scene/sections/sections.h"
 #include "src/scene/suggest.h"

@@ -10,6 +10,7 @@
 #include "needlework/simulation.h"
 #include "src/scene/schema.h"
 #include "src/scene/validity.h"
+#include "src/scene_text/document.h"
 #include "src/serve/server.h"
 #include "tests/cli/program.h"
 

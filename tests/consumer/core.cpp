@@ -1,6 +1,5 @@
 // A program as someone else would write it: a scene in code, a callback, a look at the result.
 #include <needlework/error.h>
-#include <needlework/parse.h>
 #include <needlework/predict.h>
 #include <needlework/scene.h>
 #include <needlework/simulation.h>
@@ -37,9 +36,9 @@ int main() {
   const double time =
       needlework::predict(first, second, 2, false, needlework::rigorous_accuracy).time;
 
-  const bool right =
-      std::abs(time - 2. / 3) < 1e-15 && stop == needlework::Stop::collisions && seen == 50 &&
-      totals.collisions == 50 && lost > 0 && std::abs(50 * totals.energy - expected) < 1e-10 &&
-      simulation.copy().size() == 50;
+  const bool right = std::abs(time - 2. / 3) < 1e-15 && stop == needlework::Stop::collisions &&
+                     seen == 50 && totals.collisions == 50 && lost > 0 &&
+                     std::abs(50 * totals.energy - expected) < 1e-10 &&
+                     simulation.copy().size() == 50;
   return right ? 0 : 1;
 }

@@ -57,7 +57,8 @@ endfunction()
 set(c_prefix ${WORK}/c_prefix)
 file(COPY ${prefix}/ DESTINATION ${c_prefix})
 file(GLOB_RECURSE rest ${c_prefix}/*/libneedlework*.a ${c_prefix}/*/NeedleworkTargets*.cmake
-     ${c_prefix}/*/NeedleworkCoreTargets*.cmake ${c_prefix}/*/NeedleworkTheoryTargets*.cmake)
+     ${c_prefix}/*/NeedleworkCoreTargets*.cmake ${c_prefix}/*/NeedleworkScenesTargets*.cmake
+     ${c_prefix}/*/NeedleworkTheoryTargets*.cmake)
 file(REMOVE ${rest} ${c_prefix}/bin/needlework)
 foreach(example smallest own_arrays)
   build_and_run_c(c_${example} ${SOURCE}/../../examples/c/${example}.c c
@@ -69,7 +70,7 @@ if(NOT needed MATCHES "NEEDED +libneedlework\\.so\\.2\n" OR needed MATCHES "hdf5
   message(FATAL_ERROR "expected a program that needs libneedlework.so.2:\n${needed}")
 endif()
 
-# What the components core and theory need must be there without the rest of the library, and without HDF5.
+# What the components core, scenes and theory need must be there without the rest of the library, and without HDF5.
 set(core_prefix ${WORK}/core_prefix)
 file(COPY ${prefix}/ DESTINATION ${core_prefix})
 file(GLOB_RECURSE rest ${core_prefix}/*/libneedlework.a ${core_prefix}/*/NeedleworkTargets*.cmake)
@@ -88,8 +89,10 @@ foreach(generator "-GNinja" "")
   endif()
 endforeach()
 
-build_and_run(theory theory theory -DCMAKE_DISABLE_FIND_PACKAGE_HDF5=ON
-              -DCMAKE_PREFIX_PATH=${core_prefix})
+foreach(component scenes theory)
+  build_and_run(${component} ${component} ${component} -DCMAKE_DISABLE_FIND_PACKAGE_HDF5=ON
+                -DCMAKE_PREFIX_PATH=${core_prefix})
+endforeach()
 
 # Without HDF5 the component needlework says what is missing.
 file(GLOB_RECURSE config ${prefix}/*/NeedleworkConfig.cmake)

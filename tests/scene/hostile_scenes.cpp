@@ -8,7 +8,7 @@
 #include "needlework/error.h"
 #include "needlework/parse.h"
 #include "src/scene/printable.h"
-#include "src/scene/toml_guard.h"
+#include "src/scene_text/toml_guard.h"
 #include "tests/scene/message.h"
 #include "tests/support/cpu_seconds.h"
 

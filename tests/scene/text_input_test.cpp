@@ -1,5 +1,5 @@
 // Files that people name: which of them can be read as text.
-#include "src/scene/text_input.h"
+#include "src/scene_text/text_input.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -1,4 +1,4 @@
-#include "src/scene/toml_guard.h"
+#include "src/scene_text/toml_guard.h"
 
 #include <fmt/format.h>
 

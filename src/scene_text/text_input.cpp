@@ -1,4 +1,4 @@
-#include "src/scene/text_input.h"
+#include "src/scene_text/text_input.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "needlework/parse.h"
-#include "src/scene/document.h"
+#include "src/scene_text/document.h"
 
 namespace needlework {
 

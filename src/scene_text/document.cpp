@@ -1,4 +1,4 @@
-#include "src/scene/document.h"
+#include "src/scene_text/document.h"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -12,7 +12,7 @@
 
 #include "src/scene/printable.h"
 #include "src/scene/schema.h"
-#include "src/scene/toml_guard.h"
+#include "src/scene_text/toml_guard.h"
 
 namespace needlework {
 namespace {
