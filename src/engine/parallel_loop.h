@@ -316,7 +316,7 @@ void ParallelLoop<S, M>::run_together(const StopConditions& limits, Time end) {
   // The previous phase may have been long ago, so its largest speed is rescaled.
   phase_.begin(fastest_to_thermal_ * thermal_speed(), plan_.most_of_a_thread());
   for (auto& thread : threads_) thread.begin();
-  [[maybe_unused]] const Time base = search_.volumes().base;
+  [[maybe_unused]] const Time base = search_.volumes().frame.base;
   const TimeKey end_key = cell_calendar_.key_of(end);
   assert(phase_.causality_log.is_before(cell_calendar_.key_of(cell_calendar_.top().time)));
   ordered_ = false;
@@ -342,7 +342,7 @@ void ParallelLoop<S, M>::run_together(const StopConditions& limits, Time end) {
       }
     }
   }
-  assert(search_.volumes().base == base);  // no thread may rebase while others work
+  assert(search_.volumes().frame.base == base);  // no thread may rebase while others work
   ++run_.tally.counters.phases;
   const double fastest = phase_.local_times.fastest();
   fastest_to_thermal_ = fastest > 0 ? fastest / thermal_speed() : 0;

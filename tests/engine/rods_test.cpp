@@ -18,6 +18,7 @@
 #include "src/machine/stop_request.h"
 #include "src/scene/drawing.h"
 #include "src/scene/rod_grid.h"
+#include "src/search/ball_lists.h"
 #include "src/search/bounding_volumes.h"
 #include "tests/support/parallel_loops.h"
 #include "tests/support/runs.h"
@@ -130,7 +131,7 @@ TEST(Rods, SpheresHaveBallsWhereTheyAreCrowdedOnOneThread) {
   const Gas dense = gas_of(rods_of(200, 0, 0.49)), dilute = gas_of(rods_of(200, 0, 0.1)),
             tight = gas_of(rods_of(7, 0, 0.4)), rods = gas_of(rods_of(200, 5, 0.3));
   const auto has_balls = [](const Gas& gas, const SearchSetup& setup) {
-    return !BoundingVolumes(gas, setup, BoundingVolume::capsule).balls.empty();
+    return BallLists::suit(BoundingVolumes(gas, setup, BoundingVolume::capsule));
   };
   SearchSetup setup;
   EXPECT_FALSE(has_balls(dense, setup));

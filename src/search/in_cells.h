@@ -1,0 +1,91 @@
+// Needles in cells: the bounding volume of a needle is its cell and a fifth of its side around it.
+//
+// Why no pair is left out: until a needle is placed again, its centre stays within `overlap` of its
+// cell, and flies as its entry there says. The centres of two in contact are no farther apart than
+// half their lengths and the distance of their axes; so the other one's entry is in a cell that is
+// that near the seeker's path, with the overlap. Of these, approaching() leaves out those alone
+// whose bounding spheres stay apart for all the time ahead.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "src/memory/prefetch.h"
+#include "src/search/look.h"
+
+namespace needlework {
+
+struct InCells {
+  /// Whether entries say when they have been written.
+  static constexpr bool timed = true;
+  static constexpr CellFit fit = CellFit::at_least;
+
+  /// A needle that goes to and fro across a border, or crosses a corner, need not be placed again
+  /// so often. [L]
+  static double overlap_of(const CellGrid& grid) {
+    const auto sides = grid.sides();
+    return 0.2 * std::min({sides[0], sides[1], sides[2]});
+  }
+
+  template <bool falls>
+  static Placement place(const ClassCells& own, const MotionFrame& frame, const Presence& needle) {
+    const Cell cell = own.grid.cell_of(needle.centre);
+    return {cell, needle.path.centre, needle.path.velocity * (frame.per_length / frame.per_time),
+            own.grid.time_to_leave(cell, needle.motion, own.overlap)};
+  }
+  static std::uint32_t word(const kernels::WordFormat& format, double coordinate, double velocity) {
+    return format.with_velocity(coordinate, velocity);
+  }
+
+  // Of the needle that searches.
+
+  static void read_entry(const ClassCells&, const NeedleCells::Slot&, kernels::Seeker&) {}
+  static const float* centre(const kernels::Seeker& seeker) { return seeker.motion.r; }
+  static const float* direction(const kernels::Seeker& seeker) { return seeker.motion.v; }
+  /// How far from the segment that it sweeps its axis may be. [unit of length]
+  static float own_reach(const ClassCells&, const kernels::Seeker& seeker) {
+    return seeker.motion.half;
+  }
+  static float rounding(const ClassCells&) { return 0; }
+  /// The box around its path in the time ahead.
+  static void set_box(const MotionFrame& frame, double ahead, Look& look) {
+    const float time = in_units(frame, ahead);
+    for (int axis = 0; axis < 3; ++axis) put(frame.along(axis, look.seeker, time), axis, look);
+  }
+  /// The same around its path in the frame of motions.
+  static void set_straight_box(const MotionFrame& frame, double ahead, Look& look) {
+    const float time = in_units(frame, ahead);
+    for (int axis = 0; axis < 3; ++axis) put(frame.along_line(axis, look.seeker, time), axis, look);
+  }
+
+  // Of those that it looks for.
+
+  static float longest_half(const Look& look) { return look.cells->longest_half + look.touching; }
+  /// How far from their path, or axis, they may be in contact. [unit of length]
+  static float reach(const ClassCells& there) { return there.longest_half; }
+  /// How far from that contact their entries may be: the cells are looked at with their overlap.
+  static float with_entries(const ClassCells&, float reach) { return reach; }
+  static void prefetch(const kernels::NeedleBlock& block) {
+    needlework::prefetch(&block.word);
+    needlework::prefetch(&block.needle);
+    needlework::prefetch(&block.time);
+  }
+  static kernels::Scan scan(const kernels::NearKernels& kernels,
+                            const kernels::Surroundings& around, const Look& look,
+                            const kernels::Found& found) {
+    return kernels.approaching(around, look.seeker, found);
+  }
+
+ private:
+  // A needle at rest may stay longer than floats can say.
+  static float in_units(const MotionFrame& frame, double ahead) {
+    return static_cast<float>(
+        std::min<double>(ahead * frame.per_time, std::numeric_limits<float>::max()));
+  }
+  static void put(const MotionFrame::Range& range, int axis, Look& look) {
+    look.low[axis] = range.low;
+    look.high[axis] = range.high;
+  }
+};
+
+}  // namespace needlework
