@@ -43,8 +43,8 @@ SHARES = {
     "finding neighbours, SIMD": r"::(approaching|overlapping)$",
     "bracketing first roots, SIMD": r"::bracket",
     "choosing cells, transposing motions, sorting candidates":  # GCC makes one function of them
-        r"candidates|Candidate|PairTable|seeker_for|NearSearch::follow|propose|::look_around",
-    "placing needles in cells": r"NearSearch::place|BoundingVolumes::|NeedleCells::",
+        r"candidates|Candidate|PairTable|PairFilter|CellScan|BallLists::look",
+    "placing needles in cells": r"NearSearch::place|BoundingVolumes::|BallLists::|NeedleCells::",
     "collisions and their records":
         r"collide|record|contact_geometry|set_rotation|Hash|director_after|normalised",
     "windows, counting needles, sorting the storage":

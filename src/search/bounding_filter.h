@@ -1,4 +1,5 @@
-// The first filter of the plain searches: bounding spheres that stay apart.
+// The filter of the plain searches: bounding spheres that stay apart in the time ahead. Bodies are
+// in theirs, so those do not meet; spheres_stay_apart() has room for what it rounds.
 #pragma once
 
 #include "kernels/bounding_spheres.h"
