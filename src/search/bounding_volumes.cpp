@@ -104,7 +104,7 @@ inline bool BoundingVolumes::place_one(Needle i, Time now, double half_length) {
   ClassCells& own = class_of(i);
   return with_volume(own.kind, [&]<class Volume>(Volume) {
     const Placement placed =
-        Volume::template place<falls>(own, frame, Presence{motion, centre, path, half_length});
+        Volume::template place<falls>(own, frame, PresentNeedle{motion, centre, path, half_length});
     const bool crosses = enter(own, i, placed.cell);
     places[i].next_event = gas.clock.add(now, placed.stay);
     motions[i].half = static_cast<float>(half_length * frame.per_length);

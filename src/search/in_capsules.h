@@ -23,7 +23,8 @@ struct InCapsules {
   static double overlap_of(const CellGrid&) { return 0; }
 
   template <bool falls>
-  static Placement place(const ClassCells& own, const MotionFrame& frame, const Presence& needle) {
+  static Placement place(const ClassCells& own, const MotionFrame& frame,
+                         const PresentNeedle& needle) {
     const FreeFlight& motion = needle.motion.motion;
     const double now = needle.motion.start;
     const double speed =

@@ -28,7 +28,8 @@ struct InCells {
   }
 
   template <bool falls>
-  static Placement place(const ClassCells& own, const MotionFrame& frame, const Presence& needle) {
+  static Placement place(const ClassCells& own, const MotionFrame& frame,
+                         const PresentNeedle& needle) {
     const Cell cell = own.grid.cell_of(needle.centre);
     return {cell, needle.path.centre, needle.path.velocity * (frame.per_length / frame.per_time),
             own.grid.time_to_leave(cell, needle.motion, own.overlap)};

@@ -11,7 +11,7 @@
 namespace needlework {
 
 /// A needle that is to be placed, here and now.
-struct Presence {
+struct PresentNeedle {
   MotionFrom<FreeFlight> motion;
   Vec3d centre;
   MotionFrame::Path path;  ///< in the frame of motions
