@@ -7,6 +7,7 @@ namespace needlework::kernels {
 
 inline double minimum(double a, double b) { return a < b ? a : b; }
 inline double maximum(double a, double b) { return a > b ? a : b; }
+inline double rough_quotient(double a, double b) { return a / b; }
 inline double select(bool condition, double a, double b) { return condition ? a : b; }
 
 #include "kernels/closest_approach_body.h"

@@ -13,6 +13,24 @@
 
 using V3 = Vec3<Floats>;
 
+// Sums of products, rounded once where the instruction set can.
+NEEDLEWORK_INLINE Floats dot(const V3& a, const V3& b) {
+  return multiply_add(a.z, b.z, multiply_add(a.y, b.y, a.x * b.x));
+}
+NEEDLEWORK_INLINE V3 cross(const V3& a, const V3& b) {
+  return {subtract_product(a.y * b.z, a.z, b.y), subtract_product(a.z * b.x, a.x, b.z),
+          subtract_product(a.x * b.y, a.y, b.x)};
+}
+NEEDLEWORK_INLINE V3 add_scaled(const V3& a, const V3& b, Floats s) {
+  return {multiply_add(b.x, s, a.x), multiply_add(b.y, s, a.y), multiply_add(b.z, s, a.z)};
+}
+NEEDLEWORK_INLINE V3 subtract_scaled(const V3& a, const V3& b, Floats s) {
+  return {subtract_product(a.x, b.x, s), subtract_product(a.y, b.y, s),
+          subtract_product(a.z, b.z, s)};
+}
+
+NEEDLEWORK_INLINE Floats rough_quotient(Floats a, Floats b) { return a * rough_inverse(b); }
+
 #include "kernels/closest_approach_body.h"
 
 struct Turned {
@@ -24,16 +42,23 @@ struct Turned {
 NEEDLEWORK_INLINE Turned sine_cosine(Floats angle) {
   // To the nearest quarter of a circle; pi / 2 in three parts of few bits.
   const Floats to_whole(0x1.8p23f);
-  const Floats shifted = angle * Floats(0.636619772f) + to_whole, k = shifted - to_whole;
-  const Floats x =
-      ((angle - k * Floats(0x1.92p0f)) - k * Floats(0x1.fb4p-12f)) - k * Floats(0x1.4442d2p-24f);
+  const Floats shifted = multiply_add(angle, Floats(0.636619772f), to_whole),
+               k = shifted - to_whole;
+  const Floats x = subtract_product(
+      subtract_product(subtract_product(angle, k, Floats(0x1.92p0f)), k, Floats(0x1.fb4p-12f)), k,
+      Floats(0x1.4442d2p-24f));
   // Grouped so that little waits for what comes before.
   const Floats xx = x * x, xxxx = xx * xx;
   Turned out;
   out.sine =
-      x - (x * xx) * ((Floats(1.0f / 6) - xx * Floats(1.0f / 120)) + xxxx * Floats(1.0f / 5040));
-  out.cosine = (Floats(1.0f) - xx * Floats(0.5f)) +
-               xxxx * ((Floats(1.0f / 24) - xx * Floats(1.0f / 720)) + xxxx * Floats(1.0f / 40320));
+      subtract_product(x, x * xx,
+                       multiply_add(xxxx, Floats(1.0f / 5040),
+                                    subtract_product(Floats(1.0f / 6), xx, Floats(1.0f / 120))));
+  out.cosine =
+      multiply_add(xxxx,
+                   multiply_add(xxxx, Floats(1.0f / 40320),
+                                subtract_product(Floats(1.0f / 24), xx, Floats(1.0f / 720))),
+                   subtract_product(Floats(1.0f), xx, Floats(0.5f)));
   turn(shifted, out.cosine, out.sine);
   return out;
 }
@@ -110,10 +135,11 @@ NEEDLEWORK_INLINE V3 rough_segment_gap(const V3& r, const V3& u1, const V3& u2,
                                        const HalfLengths<Floats>& half) {
   const Floats b = dot(u1, u2), r1 = dot(r, u1), r2 = dot(r, u2);
   const Floats xx = maximum(Floats(1.0f) - b * b, Floats(0x1p-21f));
-  const Floats guess = minimum(maximum((r2 * b - r1) / xx, half.minus_first), half.first);
-  const Floats t = minimum(maximum(r2 + guess * b, half.minus_second), half.second);
-  const Floats s = minimum(maximum(t * b - r1, half.minus_first), half.first);
-  return r + u1 * s - u2 * t;
+  const Floats guess =
+      minimum(maximum(multiply_add(r2, b, -r1) * rough_inverse(xx), half.minus_first), half.first);
+  const Floats t = minimum(maximum(multiply_add(guess, b, r2), half.minus_second), half.second);
+  const Floats s = minimum(maximum(multiply_add(t, b, -r1), half.minus_first), half.first);
+  return subtract_scaled(add_scaled(r, u1, s), u2, t);
 }
 
 Scan overlapping(const Surroundings& around, const Seeker& seeker, float radius,
@@ -163,11 +189,12 @@ Scan approaching(const Surroundings& around, const Seeker& seeker, const Found& 
     // A word is a velocity as it is.
     const V3 other_v = load_words(block, lane);
     const Floats age = now - load_floats(block.time + lane);
-    const V3 d = (from - places_of(other_v, base)) - other_v * age, w = v - other_v;
+    const V3 d = subtract_scaled(from - places_of(other_v, base), other_v, age), w = v - other_v;
     const Floats b = dot(d, w), a = dot(w, w);
     // The square of the distance less that of the reach: now, and at the end of the time ahead.
-    const Floats c = dot(d, d) * Floats(1 - 0x1p-18f) - (reach_squared + a * Floats(0x1p-23f));
-    const Floats b_then = b + a * ahead, c_then = c + (b + b_then) * ahead;
+    const Floats c =
+        subtract_product(dot(d, d) * Floats(1 - 0x1p-18f) - reach_squared, a, Floats(0x1p-23f));
+    const Floats b_then = multiply_add(a, ahead, b), c_then = multiply_add(b + b_then, ahead, c);
     // It may be less between the two, at -b / a.
     const Mask apart_between = (b >= zero) | (b_then <= zero) | (c * a > b * b);
     return !((c > zero) & (c_then > zero) & apart_between);
@@ -182,7 +209,8 @@ Scan near_capsules(const Surroundings& around, const Seeker& seeker, float dista
   // As for overlapping(), but what rounding does to the gap grows with the seeker's segment.
   const float near = distance + seeker.margin + 4 * static_cast<float>(around.format.step()) +
                      (1 + seeker.axis_half) * 0x1p-17f;
-  const Floats near_squared(near * near);
+  // A first guess that is off by 2^-10 of itself adds less than the last term.
+  const Floats near_squared(near * near + seeker.axis_half * seeker.axis_half * 0x1p-20f);
   const HalfLengths<Floats> half =
       half_lengths(Floats(seeker.axis_half), Floats(seeker.longest_half));
   const auto test = [&](const NeedleBlock& block, std::size_t lane,
@@ -209,6 +237,8 @@ Scan near_paths(const Surroundings& around, const Seeker& seeker, float distance
   // Places and velocities are off as for approaching(), up to where a needle is placed again. The
   // errors of times, 2^-20, enter by the speed.
   const Floats near_now(distance + seeker.margin + 10 * step + (1 + seeker.axis_half) * 0x1p-17f);
+  // As for near_capsules().
+  const Floats guess_adds(seeker.axis_half * seeker.axis_half * 0x1p-20f);
   const auto test = [&](const NeedleBlock& block, std::size_t lane,
                         const float* offset) NEEDLEWORK_TARGET {
     const V3 from{r.x - Floats(offset[0]), r.y - Floats(offset[1]), r.z - Floats(offset[2])};
@@ -219,9 +249,10 @@ Scan near_paths(const Surroundings& around, const Seeker& seeker, float distance
     const V3 along = v * (one / speed);
     const V3 middle = ((from - places_of(v, base)) - v * age) - along * half_path;
     const V3 x = cross(u, along);
-    const Floats near = near_now + speed * Floats(0x1p-17f);
+    const Floats near = multiply_add(speed, Floats(0x1p-17f), near_now);
     const HalfLengths<Floats> halves = half_lengths(Floats(seeker.axis_half), half_path);
-    return segment_distance_squared(middle, u, along, x, dot(x, x), halves) <= near * near;
+    return segment_distance_squared(middle, u, along, x, dot(x, x), halves) <=
+           multiply_add(near, near, guess_adds);
   };
   return scan(around, seeker, found, test);
 }
@@ -245,10 +276,10 @@ NEEDLEWORK_INLINE SimdSample sample(const SimdPairs& pair, Floats s) {
   V3 n[2], d[2];
   for (int i = 0; i < 2; ++i) {
     const Turned t = sine_cosine(pair.omega[i] * (s + pair.age[i]));
-    n[i] = pair.u[i] * t.cosine + pair.p[i] * t.sine;
-    d[i] = (pair.p[i] * t.cosine - pair.u[i] * t.sine) * pair.omega[i];
+    n[i] = add_scaled(pair.u[i] * t.cosine, pair.p[i], t.sine);
+    d[i] = subtract_scaled(pair.p[i] * t.cosine, pair.u[i], t.sine) * pair.omega[i];
   }
-  const V3 c = pair.r + pair.v * s, x = cross(n[0], n[1]);
+  const V3 c = add_scaled(pair.r, pair.v, s), x = cross(n[0], n[1]);
   const V3 dx[2] = {cross(d[0], n[1]), cross(n[0], d[1])}, dd = cross(d[0], d[1]);
   const Floats square[2] = {pair.omega[0] * pair.omega[0], pair.omega[1] * pair.omega[1]};
   const Floats squares = square[0] + square[1];
@@ -257,12 +288,13 @@ NEEDLEWORK_INLINE SimdSample sample(const SimdPairs& pair, Floats s) {
   SimdSample out;
   out.f = dot(c, x);
   out.df = vx + (cdx[0] + cdx[1]);
-  out.ddf = (vdx + vdx) + ((cdd + cdd) - squares * out.f);
+  out.ddf = (vdx + vdx) + subtract_product(cdd + cdd, squares, out.f);
   out.dddf =
-      Floats(3.0f) * ((vdd + vdd) - squares * vx) -
-      ((squares + (square[1] + square[1])) * cdx[0] + (squares + (square[0] + square[0])) * cdx[1]);
+      subtract_product(subtract_product(Floats(3.0f) * subtract_product(vdd + vdd, squares, vx),
+                                        squares + (square[1] + square[1]), cdx[0]),
+                       squares + (square[0] + square[0]), cdx[1]);
   const V3 gap = segment_gap(c, n[0], n[1], x, dot(x, x), half_lengths(pair.half[0], pair.half[1]));
-  out.gap = square_root(dot(gap, gap));
+  out.gap = rough_root(dot(gap, gap)) * Floats(1 + 0x1p-10f);  // not below
   out.centre = dot(gap, c);
   out.velocity = dot(gap, pair.v);
   for (int i = 0; i < 2; ++i) {
@@ -311,7 +343,7 @@ NEEDLEWORK_INLINE SimdBounds bounds_of(const Seeker& seeker, const SimdPairs& pa
                                        Floats distance = Floats(0.0f)) {
   SimdBounds out;
   const Floats half(0.5f), one(1.0f), w = pair.omega[0] + pair.omega[1];
-  const Floats v = square_root(dot(pair.v, pair.v));
+  const Floats v = rough_root(dot(pair.v, pair.v)) * Floats(1 + 0x1p-10f);  // not below
   out.speed = v + half * w;
   // The errors of times, 2^-20, and of phases, 2^-23 of themselves, and the caller's margin.
   const Floats swift = norm_1(broadcast(seeker.motion.v)) + (norm_1(pair.v) + w);
@@ -321,7 +353,7 @@ NEEDLEWORK_INLINE SimdBounds bounds_of(const Seeker& seeker, const SimdPairs& pa
   Floats reach = (pair.half[0] + pair.half[1] + Floats(0x1p-10f)) + out.margin;
   if constexpr (wide) reach = reach + distance;
   out.reach_squared = reach * reach + dot(pair.r, pair.r) * Floats(0x1p-18f);
-  const Floats arm = Floats(1 + 0x1p-8f) * square_root(out.reach_squared);
+  const Floats arm = Floats(1 + 0x1p-8f) * rough_root(out.reach_squared);
   const Floats turn = arm * w;
   out.bend = ((v + v) + turn) * w;
   out.coil = (Floats(4.0f) * v + turn) * (w * w * w) * Floats(1.0f / 24);
@@ -391,10 +423,12 @@ NEEDLEWORK_INLINE SimdShares free_around(const SimdSample& e, const SimdBounds& 
   const Mask known = bounds.trusted & (e.gap < Floats(0x1p10f));
 
   const Mask negative = e.f < zero;
-  const Floats f_now = absolute(e.f) - bounds.error_f - h * bounds.error_df;
+  const Floats f_now = subtract_product(absolute(e.f) - bounds.error_f, h, bounds.error_df);
   const Floats f_rises = h * select(negative, -e.df, e.df);
-  const Floats f_bends = half * (bounds.error_ddf - select(negative, -e.ddf, e.ddf)) +
-                         h * (sixth * (absolute(e.dddf) + bounds.error_dddf) + h * bounds.coil);
+  const Floats f_twists =
+      multiply_add(h, bounds.coil, sixth * (absolute(e.dddf) + bounds.error_dddf));
+  const Floats f_bends =
+      multiply_add(h, f_twists, half * (bounds.error_ddf - select(negative, -e.ddf, e.ddf)));
   const Floats f_bent = h * h * maximum(f_bends, zero);
 
   const auto along_gap = [&](Floats centre, Floats a, Floats b)
@@ -403,7 +437,7 @@ NEEDLEWORK_INLINE SimdShares free_around(const SimdSample& e, const SimdBounds& 
   const Floats g = along_gap(e.centre, e.director[0], e.director[1]);
   Floats g_error = bounds.error_f;
   if constexpr (wide) g_error = g_error + distance;
-  const Floats g_now = g - g_error * e.gap;
+  const Floats g_now = subtract_product(g, g_error, e.gap);
   const Floats g_before =
       along_gap(e.centre - moved, e.director[0] - turned[0], e.director[1] - turned[1]) - g;
   const Floats g_after =
@@ -414,11 +448,14 @@ NEEDLEWORK_INLINE SimdShares free_around(const SimdSample& e, const SimdBounds& 
   // towards 0. A share that is not a number counts as 0.
   const auto spread = [&](Floats now, Floats rises, Floats bent) NEEDLEWORK_TARGET {
     const Floats twice = now + now;
-    return square_root(rises * rises + (twice + twice) * bent) * Floats(1 + 0x1p-20f);
+    return rough_root(multiply_add(twice + twice, bent, rises * rises)) * Floats(1 + 0x1p-10f);
   };
   const auto share = [&](Floats now, Floats falls) NEEDLEWORK_TARGET {
     const Floats twice = now + now;
-    return select(now > zero, select(falls <= twice, one, twice / falls), zero);
+    return select(now > zero,
+                  select(falls <= twice, one,
+                         minimum(twice * rough_inverse(falls), one) * Floats(1 - 0x1p-10f)),
+                  zero);
   };
   const Floats along_before = share(g_now, spread(g_now, g_before, g_bent) - g_before),
                along_after = share(g_now, spread(g_now, g_after, g_bent) - g_after);
@@ -453,11 +490,11 @@ NEEDLEWORK_INLINE std::size_t bracket_vector(const Seeker& seeker, const PairCol
     low = low + span * begin;
   }
 
-  const Floats least = Floats(0x1p-9f) / bounds.speed;
+  const Floats least = Floats(0x1p-9f) * rough_inverse(bounds.speed);
   // Over half a step f'' changes f by no more than this: longer steps are seldom free, and what a
   // step leaves is searched again.
   constexpr float most_bend = 3;
-  const Floats step = square_root(Floats(8 * most_bend) / bounds.bend);
+  const Floats step = rough_root(Floats(8 * most_bend) * rough_inverse(bounds.bend));
   // Still to be searched: from low to high, and from next on.
   Floats high = minimum(low + step, until), next = high;
   Mask searching = first_lanes(end - k) & (!overlap.never) & (low <= until);

@@ -48,6 +48,11 @@ HWY_INLINE Floats operator+(Floats a, Floats b) { return hn::Add(a.v, b.v); }
 HWY_INLINE Floats operator-(Floats a, Floats b) { return hn::Sub(a.v, b.v); }
 HWY_INLINE Floats operator*(Floats a, Floats b) { return hn::Mul(a.v, b.v); }
 HWY_INLINE Floats operator/(Floats a, Floats b) { return hn::Div(a.v, b.v); }
+/// a b + c and c - a b, rounded once where the instruction set can.
+HWY_INLINE Floats multiply_add(Floats a, Floats b, Floats c) { return hn::MulAdd(a.v, b.v, c.v); }
+HWY_INLINE Floats subtract_product(Floats c, Floats a, Floats b) {
+  return hn::NegMulAdd(a.v, b.v, c.v);
+}
 HWY_INLINE Floats operator-(Floats a) { return hn::Neg(a.v); }
 HWY_INLINE Mask operator<(Floats a, Floats b) { return {hn::Lt(a.v, b.v)}; }
 HWY_INLINE Mask operator>(Floats a, Floats b) { return {hn::Gt(a.v, b.v)}; }
@@ -59,6 +64,13 @@ HWY_INLINE Floats minimum(Floats a, Floats b) { return hn::Min(a.v, b.v); }
 HWY_INLINE Floats maximum(Floats a, Floats b) { return hn::Max(a.v, b.v); }
 HWY_INLINE Floats absolute(Floats a) { return hn::Abs(a.v); }
 HWY_INLINE Floats square_root(Floats a) { return hn::Sqrt(a.v); }
+/// Good to 2^-11; of 0 it is infinite, or large.
+HWY_INLINE Floats rough_inverse(Floats a) { return hn::ApproximateReciprocal(a.v); }
+/// Good to 2^-11; 0 of 0.
+HWY_INLINE Floats rough_root(Floats a) {
+  const auto root = hn::Mul(a.v, hn::ApproximateReciprocalSqrt(a.v));
+  return hn::IfThenElseZero(hn::Gt(a.v, hn::Zero(Tag())), root);
+}
 HWY_INLINE Floats select(Mask m, Floats a, Floats b) { return hn::IfThenElse(m.m, a.v, b.v); }
 HWY_INLINE bool any(Mask m) { return !hn::AllFalse(Tag(), m.m); }
 HWY_INLINE std::size_t count_of(Mask m) { return hn::CountTrue(Tag(), m.m); }
