@@ -4,7 +4,7 @@
 // that cover every rounding. So no choice of kernel or instruction set can change a trajectory.
 // Pairs that are not ruled out go to first_contact(), with a time before which they do not meet.
 // One body (near_needles_body.h) serves all instruction sets. With vectors of one float it is the
-// scalar twin. All give the same bits.
+// scalar twin. They round differently, so that one may rule out a few pairs that another does not.
 //
 // The caller chooses a unit of length and a unit of time, both powers of two: the unit of length so
 // that no needle is longer than one unit, the unit of time so that speeds are of order 1. All

@@ -1,17 +1,51 @@
 // The kernels of near_needles.h for one kind of Floats. Included in the namespace of each
 // instruction set, which has Floats and Mask.
 //
-// Margins. A float carries 24 bits, so each operation is off by 2^-24 of its result. Needles are no
-// longer than the unit of length, and centres are within a few units (the caller's margin grows
-// with its cells). What words round is said where they are read. Directors of motions come from
-// sines and cosines good to 2^-20 and phases good to 2^-23 of themselves; times are good to 2^-20
-// and enter by the speeds. Lengths below are off by less than `margin` of SimdBounds, which has a
-// reserve of more than four. Rounding does not shrink with the needles: where a margin or an error
-// contains a length, it is the unit.
+// Margins. A float carries 24 bits, so each operation is off by 2^-24 of its result. Where a fused
+// one rounds once, the product in it is off by nothing, so that what is derived for two roundings
+// holds; nothing relies on equal products to cancel. Needles are no longer than the unit of length,
+// and centres are within a few units (the caller's margin grows with its cells). What words round
+// is said where they are read. Directors of motions come from sines and cosines good to 2^-20 and
+// phases good to 2^-23 of themselves; times are good to 2^-20 and enter by the speeds. Lengths
+// below are off by less than `margin` of SimdBounds, which has a reserve of more than four.
+// Rounding does not shrink with the needles: where a margin or an error contains a length, it is
+// the unit.
+//
+// Rough roots and quotients are off by up to `rough_error`. Where a bound grows with one, a
+// constant puts it on the safe side of that error and of the roundings beside it; elsewhere it is a
+// guess, of which any will do or whose error has a margin. For the twin, `rough_error` and these
+// margins are 0. What is not a number must rule nothing out: a bound that may be none is the second
+// argument of minimum() or maximum(), so that it is their result.
 
 #include "kernels/vec3_body.h"
 
 using V3 = Vec3<Floats>;
+
+// Sums of products, rounded once where the instruction set can.
+NEEDLEWORK_INLINE Floats dot(const V3& a, const V3& b) {
+  return multiply_add(a.z, b.z, multiply_add(a.y, b.y, a.x * b.x));
+}
+NEEDLEWORK_INLINE V3 cross(const V3& a, const V3& b) {
+  return {subtract_product(a.y * b.z, a.z, b.y), subtract_product(a.z * b.x, a.x, b.z),
+          subtract_product(a.x * b.y, a.y, b.x)};
+}
+NEEDLEWORK_INLINE V3 add_scaled(const V3& a, const V3& b, Floats s) {
+  return {multiply_add(b.x, s, a.x), multiply_add(b.y, s, a.y), multiply_add(b.z, s, a.z)};
+}
+NEEDLEWORK_INLINE V3 subtract_scaled(const V3& a, const V3& b, Floats s) {
+  return {subtract_product(a.x, b.x, s), subtract_product(a.y, b.y, s),
+          subtract_product(a.z, b.z, s)};
+}
+
+/// What is rough is not too small times 1 + rough_spare, nor too large times 1 - rough_spare, with
+/// a quarter of this left for roundings.
+constexpr float rough_spare = 4 * rough_error / 3;
+
+/// Not less than the length of a vector, by roundings; not a number if its square is infinite.
+NEEDLEWORK_INLINE Floats rough_length(const V3& a) {
+  const Floats squares = multiply_add(a.z, a.z, multiply_add(a.y, a.y, rough_square(a.x)));
+  return rough_root(squares) * Floats(1 + rough_spare);
+}
 
 #include "kernels/closest_approach_body.h"
 
@@ -24,16 +58,23 @@ struct Turned {
 NEEDLEWORK_INLINE Turned sine_cosine(Floats angle) {
   // To the nearest quarter of a circle; pi / 2 in three parts of few bits.
   const Floats to_whole(0x1.8p23f);
-  const Floats shifted = angle * Floats(0.636619772f) + to_whole, k = shifted - to_whole;
-  const Floats x =
-      ((angle - k * Floats(0x1.92p0f)) - k * Floats(0x1.fb4p-12f)) - k * Floats(0x1.4442d2p-24f);
+  const Floats shifted = multiply_add(angle, Floats(0.636619772f), to_whole),
+               k = shifted - to_whole;
+  const Floats x = subtract_product(
+      subtract_product(subtract_product(angle, k, Floats(0x1.92p0f)), k, Floats(0x1.fb4p-12f)), k,
+      Floats(0x1.4442d2p-24f));
   // Grouped so that little waits for what comes before.
   const Floats xx = x * x, xxxx = xx * xx;
   Turned out;
   out.sine =
-      x - (x * xx) * ((Floats(1.0f / 6) - xx * Floats(1.0f / 120)) + xxxx * Floats(1.0f / 5040));
-  out.cosine = (Floats(1.0f) - xx * Floats(0.5f)) +
-               xxxx * ((Floats(1.0f / 24) - xx * Floats(1.0f / 720)) + xxxx * Floats(1.0f / 40320));
+      subtract_product(x, x * xx,
+                       multiply_add(xxxx, Floats(1.0f / 5040),
+                                    subtract_product(Floats(1.0f / 6), xx, Floats(1.0f / 120))));
+  out.cosine =
+      multiply_add(xxxx,
+                   multiply_add(xxxx, Floats(1.0f / 40320),
+                                subtract_product(Floats(1.0f / 24), xx, Floats(1.0f / 720))),
+                   subtract_product(Floats(1.0f), xx, Floats(0.5f)));
   turn(shifted, out.cosine, out.sine);
   return out;
 }
@@ -105,15 +146,17 @@ NEEDLEWORK_INLINE V3 places_of(const V3& words, Floats base) {
 /// included, and the numerator of the first guess by less than |r| 2^-17. So the guess is off by
 /// less than e / xx, e = |r| 2^-17 + d / 2 < 2^-15.5 for centres within 1.5 units, and by no more
 /// than the length of the first segment. The square of the distance is too large by no more than
-/// (xx + d) min(1, e / xx)^2 <= e + d < 2^-14.
+/// (xx + d) min(1, e / xx)^2 <= e + d < 2^-14.6. A rough quotient puts the guess off by 2^-12.4
+/// more within the first segment, which makes that less than 2^-14.
 NEEDLEWORK_INLINE V3 rough_segment_gap(const V3& r, const V3& u1, const V3& u2,
                                        const HalfLengths<Floats>& half) {
   const Floats b = dot(u1, u2), r1 = dot(r, u1), r2 = dot(r, u2);
-  const Floats xx = maximum(Floats(1.0f) - b * b, Floats(0x1p-21f));
-  const Floats guess = minimum(maximum((r2 * b - r1) / xx, half.minus_first), half.first);
-  const Floats t = minimum(maximum(r2 + guess * b, half.minus_second), half.second);
-  const Floats s = minimum(maximum(t * b - r1, half.minus_first), half.first);
-  return r + u1 * s - u2 * t;
+  const Floats xx = maximum(subtract_product(Floats(1.0f), b, b), Floats(0x1p-21f));
+  const Floats guess = minimum(
+      maximum(rough_quotient(multiply_subtract(r2, b, r1), xx), half.minus_first), half.first);
+  const Floats t = minimum(maximum(multiply_add(guess, b, r2), half.minus_second), half.second);
+  const Floats s = minimum(maximum(multiply_subtract(t, b, r1), half.minus_first), half.first);
+  return subtract_scaled(add_scaled(r, u1, s), u2, t);
 }
 
 Scan overlapping(const Surroundings& around, const Seeker& seeker, float radius,
@@ -163,16 +206,24 @@ Scan approaching(const Surroundings& around, const Seeker& seeker, const Found& 
     // A word is a velocity as it is.
     const V3 other_v = load_words(block, lane);
     const Floats age = now - load_floats(block.time + lane);
-    const V3 d = (from - places_of(other_v, base)) - other_v * age, w = v - other_v;
+    const V3 d = subtract_scaled(from - places_of(other_v, base), other_v, age), w = v - other_v;
     const Floats b = dot(d, w), a = dot(w, w);
     // The square of the distance less that of the reach: now, and at the end of the time ahead.
-    const Floats c = dot(d, d) * Floats(1 - 0x1p-18f) - (reach_squared + a * Floats(0x1p-23f));
-    const Floats b_then = b + a * ahead, c_then = c + (b + b_then) * ahead;
+    const Floats c = subtract_product(
+        multiply_subtract(dot(d, d), Floats(1 - 0x1p-18f), reach_squared), a, Floats(0x1p-23f));
+    const Floats b_then = multiply_add(a, ahead, b), c_then = multiply_add(b + b_then, ahead, c);
     // It may be less between the two, at -b / a.
     const Mask apart_between = (b >= zero) | (b_then <= zero) | (c * a > b * b);
     return !((c > zero) & (c_then > zero) & apart_between);
   };
   return scan(around, seeker, found, test);
+}
+
+/// How much segment_gap() may be too large for the rough quotient of its first guess, squared:
+/// within the first segment the guess is off by rough_error times half its length, and this is
+/// seven times its square. So it leaves room for the products with the other errors of the guess.
+inline float rough_guess_adds(float half) {
+  return (4 * rough_spare * rough_spare) * (half * half);
 }
 
 Scan near_capsules(const Surroundings& around, const Seeker& seeker, float distance,
@@ -182,7 +233,7 @@ Scan near_capsules(const Surroundings& around, const Seeker& seeker, float dista
   // As for overlapping(), but what rounding does to the gap grows with the seeker's segment.
   const float near = distance + seeker.margin + 4 * static_cast<float>(around.format.step()) +
                      (1 + seeker.axis_half) * 0x1p-17f;
-  const Floats near_squared(near * near);
+  const Floats near_squared(near * near + rough_guess_adds(seeker.axis_half));
   const HalfLengths<Floats> half =
       half_lengths(Floats(seeker.axis_half), Floats(seeker.longest_half));
   const auto test = [&](const NeedleBlock& block, std::size_t lane,
@@ -209,6 +260,7 @@ Scan near_paths(const Surroundings& around, const Seeker& seeker, float distance
   // Places and velocities are off as for approaching(), up to where a needle is placed again. The
   // errors of times, 2^-20, enter by the speed.
   const Floats near_now(distance + seeker.margin + 10 * step + (1 + seeker.axis_half) * 0x1p-17f);
+  const Floats guess_adds(rough_guess_adds(seeker.axis_half));
   const auto test = [&](const NeedleBlock& block, std::size_t lane,
                         const float* offset) NEEDLEWORK_TARGET {
     const V3 from{r.x - Floats(offset[0]), r.y - Floats(offset[1]), r.z - Floats(offset[2])};
@@ -217,11 +269,13 @@ Scan near_paths(const Surroundings& around, const Seeker& seeker, float distance
     const Floats speed = square_root(dot(v, v)),
                  half_path = half * minimum(speed * ahead, farthest);
     const V3 along = v * (one / speed);
-    const V3 middle = ((from - places_of(v, base)) - v * age) - along * half_path;
+    const V3 middle =
+        subtract_scaled(subtract_scaled(from - places_of(v, base), v, age), along, half_path);
     const V3 x = cross(u, along);
-    const Floats near = near_now + speed * Floats(0x1p-17f);
+    const Floats near = multiply_add(speed, Floats(0x1p-17f), near_now);
     const HalfLengths<Floats> halves = half_lengths(Floats(seeker.axis_half), half_path);
-    return segment_distance_squared(middle, u, along, x, dot(x, x), halves) <= near * near;
+    return segment_distance_squared(middle, u, along, x, dot(x, x), halves) <=
+           multiply_add(near, near, guess_adds);
   };
   return scan(around, seeker, found, test);
 }
@@ -231,7 +285,7 @@ Scan near_paths(const Surroundings& around, const Seeker& seeker, float distance
 /// directors and their rates times the half lengths.
 struct SimdSample {
   Floats f, df, ddf, dddf;
-  Floats gap;  // its length
+  Floats gap;  // its length, or a little more: any vector bounds the distance along itself
   Floats centre, velocity, director[2], turning[2];
 };
 
@@ -245,10 +299,10 @@ NEEDLEWORK_INLINE SimdSample sample(const SimdPairs& pair, Floats s) {
   V3 n[2], d[2];
   for (int i = 0; i < 2; ++i) {
     const Turned t = sine_cosine(pair.omega[i] * (s + pair.age[i]));
-    n[i] = pair.u[i] * t.cosine + pair.p[i] * t.sine;
-    d[i] = (pair.p[i] * t.cosine - pair.u[i] * t.sine) * pair.omega[i];
+    n[i] = add_scaled(pair.u[i] * t.cosine, pair.p[i], t.sine);
+    d[i] = subtract_scaled(pair.p[i] * t.cosine, pair.u[i], t.sine) * pair.omega[i];
   }
-  const V3 c = pair.r + pair.v * s, x = cross(n[0], n[1]);
+  const V3 c = add_scaled(pair.r, pair.v, s), x = cross(n[0], n[1]);
   const V3 dx[2] = {cross(d[0], n[1]), cross(n[0], d[1])}, dd = cross(d[0], d[1]);
   const Floats square[2] = {pair.omega[0] * pair.omega[0], pair.omega[1] * pair.omega[1]};
   const Floats squares = square[0] + square[1];
@@ -257,12 +311,13 @@ NEEDLEWORK_INLINE SimdSample sample(const SimdPairs& pair, Floats s) {
   SimdSample out;
   out.f = dot(c, x);
   out.df = vx + (cdx[0] + cdx[1]);
-  out.ddf = (vdx + vdx) + ((cdd + cdd) - squares * out.f);
+  out.ddf = (vdx + vdx) + subtract_product(cdd + cdd, squares, out.f);
   out.dddf =
-      Floats(3.0f) * ((vdd + vdd) - squares * vx) -
-      ((squares + (square[1] + square[1])) * cdx[0] + (squares + (square[0] + square[0])) * cdx[1]);
+      subtract_product(subtract_product(Floats(3.0f) * subtract_product(vdd + vdd, squares, vx),
+                                        squares + (square[1] + square[1]), cdx[0]),
+                       squares + (square[0] + square[0]), cdx[1]);
   const V3 gap = segment_gap(c, n[0], n[1], x, dot(x, x), half_lengths(pair.half[0], pair.half[1]));
-  out.gap = square_root(dot(gap, gap));
+  out.gap = rough_length(gap);
   out.centre = dot(gap, c);
   out.velocity = dot(gap, pair.v);
   for (int i = 0; i < 2; ++i) {
@@ -311,24 +366,26 @@ NEEDLEWORK_INLINE SimdBounds bounds_of(const Seeker& seeker, const SimdPairs& pa
                                        Floats distance = Floats(0.0f)) {
   SimdBounds out;
   const Floats half(0.5f), one(1.0f), w = pair.omega[0] + pair.omega[1];
-  const Floats v = square_root(dot(pair.v, pair.v));
-  out.speed = v + half * w;
+  // What follows from speeds and from the arm grows with them, and none may be too small.
+  const Floats v = rough_length(pair.v);
+  out.speed = multiply_add(half, w, v);
   // The errors of times, 2^-20, and of phases, 2^-23 of themselves, and the caller's margin.
   const Floats swift = norm_1(broadcast(seeker.motion.v)) + (norm_1(pair.v) + w);
-  const Floats phase = pair.omega[0] * until + pair.omega[1] * (pair.age[1] + until);
-  out.margin = Floats(seeker.margin) + swift * Floats(0x1p-18f) + phase * Floats(0x1p-20f);
+  const Floats phase = multiply_add(pair.omega[1], pair.age[1] + until, pair.omega[0] * until);
+  out.margin = multiply_add(phase, Floats(0x1p-20f),
+                            multiply_add(swift, Floats(0x1p-18f), Floats(seeker.margin)));
   out.trusted = phase < Floats(0x1p12f);
   Floats reach = (pair.half[0] + pair.half[1] + Floats(0x1p-10f)) + out.margin;
   if constexpr (wide) reach = reach + distance;
-  out.reach_squared = reach * reach + dot(pair.r, pair.r) * Floats(0x1p-18f);
-  const Floats arm = Floats(1 + 0x1p-8f) * square_root(out.reach_squared);
+  out.reach_squared = multiply_add(reach, reach, dot(pair.r, pair.r) * Floats(0x1p-18f));
+  const Floats arm = Floats((1 + 0x1p-8f) * (1 + rough_spare)) * rough_root(out.reach_squared);
   const Floats turn = arm * w;
   out.bend = ((v + v) + turn) * w;
-  out.coil = (Floats(4.0f) * v + turn) * (w * w * w) * Floats(1.0f / 24);
-  out.tips_bend = half * (pair.half[0] * (pair.omega[0] * pair.omega[0]) +
-                          pair.half[1] * (pair.omega[1] * pair.omega[1]));
+  out.coil = multiply_add(Floats(4.0f), v, turn) * (w * w * w) * Floats(1.0f / 24);
+  out.tips_bend = half * multiply_add(pair.half[0], pair.omega[0] * pair.omega[0],
+                                      pair.half[1] * (pair.omega[1] * pair.omega[1]));
   // The largest second and third derivatives of needles whose centres are one unit apart or more.
-  const Floats unit_turn = maximum(arm, one) * w;
+  const Floats unit_turn = maximum(one, arm) * w;
   const Floats bend = ((v + v) + unit_turn) * w, twist = ((v + v + v) + unit_turn) * (w * w);
   out.error_f = out.margin + out.margin;
   out.error_df = out.margin * (out.speed + out.speed);
@@ -367,7 +424,7 @@ NEEDLEWORK_INLINE SimdTimeSpan overlap_of_spheres(const SimdPairs& pair, const S
   const Floats zero(0.0f), margin(static_cast<float>(time_margin));
   const Floats a = dot(pair.v, pair.v), b = dot(pair.r, pair.v);
   const Floats c = dot(pair.r, pair.r) - bounds.reach_squared;
-  const Floats discriminant = b * b - a * c;
+  const Floats discriminant = subtract_product(b * b, a, c);
   const Floats root = square_root(maximum(discriminant, zero));
   const Mask outside = c > zero;
   const Floats q = select(b > zero, -(b + root), root - b);
@@ -391,34 +448,44 @@ NEEDLEWORK_INLINE SimdShares free_around(const SimdSample& e, const SimdBounds& 
   const Mask known = bounds.trusted & (e.gap < Floats(0x1p10f));
 
   const Mask negative = e.f < zero;
-  const Floats f_now = absolute(e.f) - bounds.error_f - h * bounds.error_df;
+  const Floats f_now = subtract_product(absolute(e.f) - bounds.error_f, h, bounds.error_df);
   const Floats f_rises = h * select(negative, -e.df, e.df);
-  const Floats f_bends = half * (bounds.error_ddf - select(negative, -e.ddf, e.ddf)) +
-                         h * (sixth * (absolute(e.dddf) + bounds.error_dddf) + h * bounds.coil);
-  const Floats f_bent = h * h * maximum(f_bends, zero);
+  const Floats f_twists =
+      multiply_add(h, bounds.coil, sixth * (absolute(e.dddf) + bounds.error_dddf));
+  const Floats f_bends =
+      multiply_add(h, f_twists, half * (bounds.error_ddf - select(negative, -e.ddf, e.ddf)));
+  const Floats f_bent = h * h * maximum(zero, f_bends);
 
   const auto along_gap = [&](Floats centre, Floats a, Floats b)
                              NEEDLEWORK_TARGET { return centre - (absolute(a) + absolute(b)); };
-  const Floats moved = h * e.velocity, turned[2] = {h * e.turning[0], h * e.turning[1]};
   const Floats g = along_gap(e.centre, e.director[0], e.director[1]);
   Floats g_error = bounds.error_f;
   if constexpr (wide) g_error = g_error + distance;
-  const Floats g_now = g - g_error * e.gap;
-  const Floats g_before =
-      along_gap(e.centre - moved, e.director[0] - turned[0], e.director[1] - turned[1]) - g;
+  const Floats g_now = subtract_product(g, g_error, e.gap);
+  const Floats g_before = along_gap(subtract_product(e.centre, h, e.velocity),
+                                    subtract_product(e.director[0], h, e.turning[0]),
+                                    subtract_product(e.director[1], h, e.turning[1])) -
+                          g;
   const Floats g_after =
-      along_gap(e.centre + moved, e.director[0] + turned[0], e.director[1] + turned[1]) - g;
+      along_gap(multiply_add(h, e.velocity, e.centre), multiply_add(h, e.turning[0], e.director[0]),
+                multiply_add(h, e.turning[1], e.director[1])) -
+      g;
   const Floats g_bent = bounds.tips_bend * (h * h) * e.gap;
 
   // The share of h in which a bound stays above 0: the root of now + rises x - bent x^2, rounded
-  // towards 0. A share that is not a number counts as 0.
+  // towards 0, that is with a spread not below the root, of which an infinite one is not a number.
+  // A share that is not a number counts as 0.
   const auto spread = [&](Floats now, Floats rises, Floats bent) NEEDLEWORK_TARGET {
     const Floats twice = now + now;
-    return square_root(rises * rises + (twice + twice) * bent) * Floats(1 + 0x1p-20f);
+    return rough_root(multiply_add(twice + twice, bent, rough_square(rises))) *
+           Floats((1 + rough_spare) * (1 + 0x1p-20f));
   };
+  // Not one but for the first reason, and never the quotient of subnormal numbers.
   const auto share = [&](Floats now, Floats falls) NEEDLEWORK_TARGET {
     const Floats twice = now + now;
-    return select(now > zero, select(falls <= twice, one, twice / falls), zero);
+    return select(
+        now > Floats(0x1p-100f),
+        select(falls <= twice, one, rough_quotient(twice * Floats(1 - rough_spare), falls)), zero);
   };
   const Floats along_before = share(g_now, spread(g_now, g_before, g_bent) - g_before),
                along_after = share(g_now, spread(g_now, g_after, g_bent) - g_after);
@@ -449,15 +516,14 @@ NEEDLEWORK_INLINE std::size_t bracket_vector(const Seeker& seeker, const PairCol
     const Floats span = (until - low) * Floats(1.0f / static_cast<float>(parts)),
                  begin = load_floats(part);
     const Mask last = begin >= Floats(static_cast<float>(parts - 1));
-    until = select(last, until, low + span * (begin + one));
-    low = low + span * begin;
+    until = select(last, until, multiply_add(span, begin + one, low));
+    low = multiply_add(span, begin, low);
   }
 
-  const Floats least = Floats(0x1p-9f) / bounds.speed;
-  // Over half a step f'' changes f by no more than this: longer steps are seldom free, and what a
-  // step leaves is searched again.
-  constexpr float most_bend = 3;
-  const Floats step = square_root(Floats(8 * most_bend) / bounds.bend);
+  const Floats least = rough_quotient(Floats(0x1p-9f), bounds.speed);
+  // Over half a step f'' changes f by no more than 3: longer steps are seldom free. Any step will
+  // do, as what it leaves is searched again; one that is not a number is all the time.
+  const Floats step = Floats(4.8989795f) * rough_inverse_root(bounds.bend);  // sqrt(8 * 3)
   // Still to be searched: from low to high, and from next on.
   Floats high = minimum(low + step, until), next = high;
   Mask searching = first_lanes(end - k) & (!overlap.never) & (low <= until);
@@ -471,9 +537,10 @@ NEEDLEWORK_INLINE std::size_t bracket_vector(const Seeker& seeker, const PairCol
 
     // If the whole first half is free, the search continues in the second half, or after it.
     // Otherwise it continues in the rest of the first half, and then in the rest of the second.
-    const Floats freed = middle + h * free.after;
+    const Floats freed = multiply_add(h, free.after, middle);
     low = select(left, select(right, next, freed), low);
-    high = select(both, minimum(next + step, until), select(left, high, middle - h * free.before));
+    high = select(both, minimum(next + step, until),
+                  select(left, high, subtract_product(middle, h, free.before)));
     next = select(both, high, select(left | right, next, freed));
 
     const Mask done = both & (low >= until);

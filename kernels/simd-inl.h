@@ -48,6 +48,14 @@ HWY_INLINE Floats operator+(Floats a, Floats b) { return hn::Add(a.v, b.v); }
 HWY_INLINE Floats operator-(Floats a, Floats b) { return hn::Sub(a.v, b.v); }
 HWY_INLINE Floats operator*(Floats a, Floats b) { return hn::Mul(a.v, b.v); }
 HWY_INLINE Floats operator/(Floats a, Floats b) { return hn::Div(a.v, b.v); }
+/// a b + c, a b - c and c - a b, rounded once where the instruction set can.
+HWY_INLINE Floats multiply_add(Floats a, Floats b, Floats c) { return hn::MulAdd(a.v, b.v, c.v); }
+HWY_INLINE Floats multiply_subtract(Floats a, Floats b, Floats c) {
+  return hn::MulSub(a.v, b.v, c.v);
+}
+HWY_INLINE Floats subtract_product(Floats c, Floats a, Floats b) {
+  return hn::NegMulAdd(a.v, b.v, c.v);
+}
 HWY_INLINE Floats operator-(Floats a) { return hn::Neg(a.v); }
 HWY_INLINE Mask operator<(Floats a, Floats b) { return {hn::Lt(a.v, b.v)}; }
 HWY_INLINE Mask operator>(Floats a, Floats b) { return {hn::Gt(a.v, b.v)}; }
@@ -59,6 +67,26 @@ HWY_INLINE Floats minimum(Floats a, Floats b) { return hn::Min(a.v, b.v); }
 HWY_INLINE Floats maximum(Floats a, Floats b) { return hn::Max(a.v, b.v); }
 HWY_INLINE Floats absolute(Floats a) { return hn::Abs(a.v); }
 HWY_INLINE Floats square_root(Floats a) { return hn::Sqrt(a.v); }
+
+// Rough operations, off by `rough_error` of the result at most and by the rounding of one product:
+// for the instructions of SSE and AVX, 1.5 * 2^-12; of AVX-512, 2^-14 (and by none for the twin).
+// Some processors take subnormal numbers for 0, and write 0 for them.
+#if HWY_TARGET == HWY_AVX3
+inline constexpr float rough_error = 0x1p-14f;
+#else
+inline constexpr float rough_error = 0x1.8p-12f;
+#endif
+/// a / b; 0, or not a number, of a b beyond 2^126, and infinite or not a number where b is 0 or
+/// subnormal.
+HWY_INLINE Floats rough_quotient(Floats a, Floats b) {
+  return hn::Mul(a.v, hn::ApproximateReciprocal(b.v));
+}
+/// The root of a normal number; of 0 and of infinity it is not a number.
+HWY_INLINE Floats rough_root(Floats a) { return hn::Mul(a.v, hn::ApproximateReciprocalSqrt(a.v)); }
+/// 1 over the root; infinite of 0 and perhaps of subnormal numbers, and 0 of infinity.
+HWY_INLINE Floats rough_inverse_root(Floats a) { return hn::ApproximateReciprocalSqrt(a.v); }
+/// a^2, and 2^-100 more where rough_root() cannot take 0.
+HWY_INLINE Floats rough_square(Floats a) { return hn::MulAdd(a.v, a.v, hn::Set(Tag(), 0x1p-100f)); }
 HWY_INLINE Floats select(Mask m, Floats a, Floats b) { return hn::IfThenElse(m.m, a.v, b.v); }
 HWY_INLINE bool any(Mask m) { return !hn::AllFalse(Tag(), m.m); }
 HWY_INLINE std::size_t count_of(Mask m) { return hn::CountTrue(Tag(), m.m); }

@@ -33,6 +33,9 @@ inline Floats operator+(Floats a, Floats b) { return a.v + b.v; }
 inline Floats operator-(Floats a, Floats b) { return a.v - b.v; }
 inline Floats operator*(Floats a, Floats b) { return a.v * b.v; }
 inline Floats operator/(Floats a, Floats b) { return a.v / b.v; }
+inline Floats multiply_add(Floats a, Floats b, Floats c) { return a.v * b.v + c.v; }
+inline Floats multiply_subtract(Floats a, Floats b, Floats c) { return a.v * b.v - c.v; }
+inline Floats subtract_product(Floats c, Floats a, Floats b) { return c.v - a.v * b.v; }
 inline Floats operator-(Floats a) { return -a.v; }
 inline Mask operator<(Floats a, Floats b) { return {a.v < b.v}; }
 inline Mask operator>(Floats a, Floats b) { return {a.v > b.v}; }
@@ -43,6 +46,12 @@ inline Floats minimum(Floats a, Floats b) { return a.v < b.v ? a : b; }
 inline Floats maximum(Floats a, Floats b) { return a.v > b.v ? a : b; }
 inline Floats absolute(Floats a) { return std::abs(a.v); }
 inline Floats square_root(Floats a) { return std::sqrt(a.v); }
+// No rougher than other operations, so that margins for rough ones are 0 here.
+inline constexpr float rough_error = 0;
+inline Floats rough_quotient(Floats a, Floats b) { return a.v / b.v; }
+inline Floats rough_root(Floats a) { return std::sqrt(a.v); }
+inline Floats rough_inverse_root(Floats a) { return 1 / std::sqrt(a.v); }
+inline Floats rough_square(Floats a) { return a.v * a.v; }
 inline Floats select(Mask m, Floats a, Floats b) { return m.m ? a : b; }
 inline bool any(Mask m) { return m.m; }
 inline std::size_t count_of(Mask m) { return m.m; }

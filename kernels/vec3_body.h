@@ -43,6 +43,16 @@ bool operator==(const Vec3<T>& a, const Vec3<T>& b) {
   return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
+/// a + b s and a - b s.
+template <class T>
+NEEDLEWORK_INLINE Vec3<T> add_scaled(const Vec3<T>& a, const Vec3<T>& b, const T& s) {
+  return a + b * s;
+}
+template <class T>
+NEEDLEWORK_INLINE Vec3<T> subtract_scaled(const Vec3<T>& a, const Vec3<T>& b, const T& s) {
+  return a - b * s;
+}
+
 template <class T>
 NEEDLEWORK_INLINE T dot(const Vec3<T>& a, const Vec3<T>& b) {
   return (a.x * b.x + a.y * b.y) + a.z * b.z;

@@ -1,31 +1,25 @@
-// What a step of the SIMD bracket relies on: bounds on how the contact function and the tips curve,
-// and shares of a span in which needles surely do not meet.
+// What a step of the SIMD bracket relies on, on every instruction set: rough operations that are
+// good enough, bounds on how the contact function and the tips curve, and shares of a span in which
+// needles surely do not meet.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <string>
 
 #include "tests/kernels/drawn_simd_pairs.h"
-#include "tests/kernels/exposed_simd.h"
+#include "tests/kernels/exposed_kernels.h"
 #include "tests/support/pairs_csv.h"
 
 namespace needlework::kernels {
 namespace {
 
-using scalar::Floats;
-namespace exposed = scalar::exposed;
-
-struct Loaded {
-  explicit Loaded(const SimdPair& pair)
-      : table({pair.row}),
-        simd(exposed::load_pairs(pair.seeker, table.view(), 0)),
-        bounds(exposed::bounds_of(pair.seeker, simd, pair.row[PairColumns::until])) {}
-
-  test::PairTable table;
-  exposed::SimdPairs simd;
-  exposed::SimdBounds bounds;
-};
+ExposedStep step_of(Isa isa, const SimdPair& pair, float s, float h) {
+  test::PairTable table({pair.row});
+  return exposed_step(isa, pair.seeker, table.view(), s, h);
+}
 
 // In units of the pair's length and time.
 Frame<DoubleDouble> frame_of(const SimdPair& pair) {
@@ -44,7 +38,6 @@ struct Seen {
 };
 
 Seen shares_of_bounds(const SimdPair& pair, double s) {
-  const Loaded loaded(pair);
   const Frame<DoubleDouble> frame = frame_of(pair);
   const auto at = [&](double time) { return evaluate(frame, DoubleDouble(time)); };
   const Sample<DoubleDouble> now = at(s);
@@ -62,9 +55,14 @@ Seen shares_of_bounds(const SimdPair& pair, double s) {
     departure += 0.5 * std::sqrt(dot(d, d)) * (i == 0 ? pair.halves().first : pair.halves().second);
   }
   const auto share = [](double value, double bound) { return value == 0 ? 0 : value / bound; };
-  return {.bend = share(std::abs(to_double(now.ddf)), loaded.bounds.bend.v),
-          .coil = share(std::abs(to_double(ddf)) / (step * step), 24.0 * loaded.bounds.coil.v),
-          .tips = share(departure, loaded.bounds.tips_bend.v * (step * step))};
+  Seen out;
+  for (const Isa isa : available()) {
+    const ExposedStep bounds = step_of(isa, pair, 0, 0);
+    out.take({.bend = share(std::abs(to_double(now.ddf)), bounds.bend),
+              .coil = share(std::abs(to_double(ddf)) / (step * step), 24.0 * bounds.coil),
+              .tips = share(departure, bounds.tips_bend * (step * step))});
+  }
+  return out;
 }
 
 class Curvature : public testing::TestWithParam<test::PairFamily> {};
@@ -119,6 +117,49 @@ TEST(CurvatureOfTurningNeedles, ReachesItsBounds) {
   }
 }
 
+// What margins assume of the processor, and that what must not be a number for infinite ones is
+// none.
+TEST(RoughOperations, AreWithinTheirErrors) {
+  Random random(seed + 8);
+  constexpr double roundings = 0x1p-23;
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  for (const Isa isa : available()) {
+    double worst = 0;
+    for (int n = 0; n < 50000; ++n) {
+      const auto a = static_cast<float>(random.log_uniform(0x1p-80, 0x1p80)),
+                 b = static_cast<float>(random.log_uniform(0x1p-40, 0x1p40));
+      const RoughResults got = rough_results(isa, a, b);
+      const double root = std::sqrt(double{a});
+      const double errors[] = {got.quotient / (double{a} / b) - 1, got.root / root - 1,
+                               got.inverse_root * root - 1};
+      for (const double error : errors) worst = std::max(worst, std::abs(error));
+      ASSERT_LE(worst, got.error + roundings) << name_of(isa) << ", " << a << ", " << b;
+      const auto c = static_cast<float>(random.log_uniform(0x1p-60, 0x1p60));
+      const double length = std::hypot(double{b}, double{c}),
+                   measured = rough_results(isa, b, c).length;
+      ASSERT_GE(measured, length * (1 - roundings)) << name_of(isa) << ", " << b << ", " << c;
+      ASSERT_LE(measured, length * (1 + 3 * (got.error + roundings)) + 0x1p-49) << name_of(isa);
+    }
+    std::printf("%s: off by %.3f * 2^-12\n", std::string(name_of(isa)).c_str(), worst * 0x1p12);
+    // Nothing has no length, or next to none, and rules no pair out.
+    for (const float a : {0.0f, 0x1p-149f, 0x1p-127f, 0x1p-75f}) {
+      const float length = rough_results(isa, a, a).length;
+      EXPECT_GE(length, isa == Isa::scalar ? 0 : a) << name_of(isa);
+      EXPECT_LE(length, 0x1p-49) << name_of(isa);
+    }
+    EXPECT_EQ(rough_results(isa, 0, 1).inverse_root, infinity) << name_of(isa);
+    EXPECT_FALSE(rough_results(isa, infinity, 1).length < infinity) << name_of(isa);
+    EXPECT_FALSE(rough_results(isa, 0x1p100f, 1).length < infinity) << name_of(isa);
+    EXPECT_EQ(rough_results(isa, 1, infinity).quotient, 0) << name_of(isa);
+    const float none = std::numeric_limits<float>::quiet_NaN();
+    const RoughResults of_none = rough_results(isa, none, 1);
+    for (const float each : {of_none.quotient, of_none.root, of_none.inverse_root, of_none.length,
+                             rough_results(isa, 1, none).quotient}) {
+      EXPECT_TRUE(std::isnan(each)) << name_of(isa);
+    }
+  }
+}
+
 class FreeShares : public testing::TestWithParam<test::PairFamily> {};
 
 // However long the span, and wherever in it the contact is.
@@ -129,22 +170,23 @@ TEST_P(FreeShares, EndBeforeTheContact) {
     const SimdPair pair = simd_pair(random, drawn, random.coin() ? any_halves(random) : Halves{});
     if (!pair.truth.found) continue;
     const double contact = pair.truth.elapsed.hi * pair.unit;
-    Loaded loaded(pair);
     for (int n = 0; n < 4; ++n) {
       // A sample before or after the contact, which is as often near an end of the span as not.
       const double h = contact * random.log_uniform(1e-4, 1),
                    share = random.coin() ? random.uniform() : 1 - random.log_uniform(1e-6, 1);
       const bool later = random.coin() && contact + share * h <= pair.row[PairColumns::until];
       const auto s = static_cast<float>(later ? contact + share * h : contact - share * h);
-      const exposed::SimdSample e = exposed::sample(loaded.simd, Floats(s));
-      const exposed::SimdShares free = exposed::free_around<false>(
-          e, loaded.bounds, Floats(static_cast<float>(h)), Floats(0.0f));
-      const double distance = std::abs(contact - s), claimed = (later ? free.before : free.after).v;
-      ++contacts;
-      near += claimed * h > 0.9 * distance;
-      ASSERT_LE(claimed * h, distance)
-          << (later ? "before" : "after") << " a sample, of a span of " << h << "\n"
-          << test::csv_line(0, drawn);
+      const double distance = std::abs(contact - s);
+      for (const Isa isa : available()) {
+        const ExposedStep free = step_of(isa, pair, s, static_cast<float>(h));
+        const double claimed = later ? free.before : free.after;
+        ++contacts;
+        near += claimed * h > 0.9 * distance;
+        ASSERT_LE(claimed * h, distance)
+            << (later ? "before" : "after") << " a sample, of a span of " << h << ", "
+            << name_of(isa) << "\n"
+            << test::csv_line(0, drawn);
+      }
     }
   }
   std::printf("of %zu shares %zu end just before the contact\n", contacts, near);

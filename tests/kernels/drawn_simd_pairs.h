@@ -49,7 +49,9 @@ struct SimdPair {
 
 /// The pair as large as its longer needle, so that only the other one is shorter than drawn. Pairs
 /// that have just collided, within both needles, keep equal lengths.
-inline SimdPair simd_pair(Random& random, const test::NeedlePair& drawn, Halves halves = {}) {
+/// Of a gas `swift` times faster, one search looks some units of its time ahead at most.
+inline SimdPair simd_pair(Random& random, const test::NeedlePair& drawn, Halves halves = {},
+                          double swift = 1) {
   SimdPair out;
   if (drawn.just_collided) halves.second = halves.first;
   out.pair = lengthened(kernel_pair(drawn), 2 * std::max(halves.first, halves.second));
@@ -63,9 +65,10 @@ inline SimdPair simd_pair(Random& random, const test::NeedlePair& drawn, Halves 
   const double horizon = drawn.horizon * (random.coin() ? 1 : random.uniform());
   out.truth = first_contact(out.pair.view(), 0, horizon, work);
   // The gas may be faster or slower than this pair, and the partner placed some time ago.
-  out.unit = unit_of(out.pair.first, out.pair.second) * std::ldexp(1.0, random.below(5) - 2);
+  out.unit = unit_of(out.pair.first, out.pair.second) * std::ldexp(swift, random.below(5) - 2);
   const double age = random.coin() ? 0 : random.uniform(0, 4) / out.unit;
-  const auto until = static_cast<float>(horizon * out.unit) + test::simd_time_margin;
+  auto until = static_cast<float>(horizon * out.unit) + test::simd_time_margin;
+  if (swift != 1) until = std::min(until, longest_time);
   out.seeker = seeker_of(motion_of(out.pair.first, 0, out.unit, halves.first), until);
   const Motion other = motion_of(out.pair.second, -age, out.unit, halves.second);
   const double from = out.truth.found && random.below(4) == 0

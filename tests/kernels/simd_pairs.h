@@ -89,12 +89,13 @@ inline PairRow row_of(const kernels::Seeker& seeker, const kernels::Motion& othe
   return row;
 }
 
-/// Pairs in columns. Floats beyond them hold what a search may have left there.
+/// Pairs in columns. Floats beyond them hold what a search may have left there: `beyond`.
 class PairTable {
  public:
-  explicit PairTable(const std::vector<PairRow>& rows)
+  explicit PairTable(const std::vector<PairRow>& rows,
+                     float beyond = std::numeric_limits<float>::quiet_NaN())
       : room_(rows.size() + 2 * kernels::block_size),
-        storage_(room_ * kernels::PairColumns::columns, std::numeric_limits<float>::quiet_NaN()) {
+        storage_(room_ * kernels::PairColumns::columns, beyond) {
     const kernels::PairColumns columns = view();
     for (int c = 0; c < kernels::PairColumns::columns; ++c) {
       for (std::size_t n = 0; n < rows.size(); ++n) columns.column[c][n] = rows[n][c];
@@ -115,9 +116,9 @@ class PairTable {
 
 /// What bracket() says of these pairs.
 inline std::vector<float> bracketed(const kernels::NearKernels& kernels,
-                                    const kernels::Seeker& seeker,
-                                    const std::vector<PairRow>& rows) {
-  PairTable table(rows);
+                                    const kernels::Seeker& seeker, const std::vector<PairRow>& rows,
+                                    float beyond = std::numeric_limits<float>::quiet_NaN()) {
+  PairTable table(rows, beyond);
   const float* from = table.view().column[kernels::PairColumns::from];
   kernels.bracket(seeker, table.view(), rows.size());
   return {from, from + rows.size()};
@@ -127,9 +128,10 @@ inline std::vector<float> bracketed(const kernels::NearKernels& kernels,
 using ContactRow = std::array<float, kernels::ContactColumns::columns>;
 inline std::vector<ContactRow> contact_functions(const kernels::NearKernels& kernels,
                                                  const kernels::Seeker& seeker,
-                                                 const std::vector<PairRow>& rows, float s) {
+                                                 const std::vector<PairRow>& rows, float s,
+                                                 float beyond = 0) {
   using C = kernels::ContactColumns;
-  PairTable table(rows);
+  PairTable table(rows, beyond);
   const std::size_t room = rows.size() + kernels::block_size;
   std::vector<float> storage(room * C::columns);
   C columns;
