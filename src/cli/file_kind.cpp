@@ -9,8 +9,8 @@
 #include "needlework/error.h"
 #include "needlework/parse.h"
 #include "src/io/formats/read_configuration.h"
-#include "src/scene_text/document.h"
 #include "src/scene/schema.h"
+#include "src/scene_text/document.h"
 
 namespace needlework::cli {
 namespace {

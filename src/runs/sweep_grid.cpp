@@ -14,10 +14,10 @@
 #include "needlework/error.h"
 #include "needlework/parse.h"
 #include "src/scene/check.h"
-#include "src/scene_text/overridden_scene.h"
 #include "src/scene/printable.h"
 #include "src/scene/schema.h"
 #include "src/scene/suggest.h"
+#include "src/scene_text/overridden_scene.h"
 
 namespace needlework::runs::sweep {
 namespace {

@@ -15,12 +15,12 @@
 #include <vector>
 
 #include "needlework/error.h"
-#include "src/scene_text/document.h"
-#include "src/scene_text/overridden_scene.h"
 #include "src/scene/printable.h"
 #include "src/scene/schema.h"
-#include "src/scene_text/text_input.h"
 #include "src/scene/validity.h"
+#include "src/scene_text/document.h"
+#include "src/scene_text/overridden_scene.h"
+#include "src/scene_text/text_input.h"
 
 namespace needlework {
 namespace {

@@ -232,7 +232,11 @@ void apply(hid_t file, const std::string& name, const std::string& target,
 BaseFile::BaseFile(std::string path) : path_(std::move(path)) {
   const Session session;
   const Handle file(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, path_);
+#if H5_VERSION_GE(1, 12, 0)
+  H5Ovisit3(file.get(), H5_INDEX_NAME, H5_ITER_INC, add_path, &objects_, H5O_INFO_BASIC);
+#else
   H5Ovisit(file.get(), H5_INDEX_NAME, H5_ITER_INC, add_path, &objects_);
+#endif
 }
 
 void BaseFile::edit(const std::string& path, FuzzedDataProvider& data) const {
