@@ -34,7 +34,7 @@ targets=("${@:2}")
 ((${#targets[@]})) || mapfile -t targets < <(ls tests/fuzz/corpus)
 mkdir -p "$build/found"
 [[ -e build/release/build.ninja ]] || configure_release ON
-cmake --build --preset release --target needlework_core needlework_picture
+cmake --build --preset release --target needlework_core needlework_theory needlework_picture
 run_quietly cmake --preset fuzz
 cmake --build --preset fuzz -- "${targets[@]/#/fuzz_}"
 printf '%s\n' "${targets[@]}" | xargs -P "$(nproc)" -n 1 "tests/fuzz/run.sh" --target "$seconds"
