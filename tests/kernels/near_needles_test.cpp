@@ -27,6 +27,7 @@ using test::vec3;
 template <class Values>
 std::vector<std::uint32_t> bits(const Values& values) {
   std::vector<std::uint32_t> out;
+  out.reserve(values.size());
   for (const float value : values) {
     out.push_back(std::isnan(value) ? 0xffffffff : std::bit_cast<std::uint32_t>(value));
   }

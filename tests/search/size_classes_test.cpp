@@ -31,6 +31,7 @@ TEST(SizeClasses, HoldNeedlesOfSimilarLength) {
   std::vector<std::uint8_t> expected{2, 0, 1, 1, 1};
   expected.insert(expected.end(), 12, 2);
   std::vector<std::uint8_t> found;
+  found.reserve(lengths.size());
   for (const double length : lengths)
     found.push_back(static_cast<std::uint8_t>(class_of_extent(classes, length)));
   EXPECT_EQ(found, expected);
