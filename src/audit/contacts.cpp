@@ -128,8 +128,8 @@ Audit::Answer Audit::is_crowded(Index a, Index b, const Instant& now) const {
   Answer out = Answer::no;
   for (const auto& [mine, other] : {std::pair(a, b), std::pair(b, a)}) {
     if (joints_[mine] && joints_[mine]->other(mine) != other) return Answer::yes;
-    const LastTouches& meeting = last_touches_[mine];
-    const auto& before = meeting.last == other ? meeting.others : meeting.with_last;
+    const LastTouches& touches = last_touches_[mine];
+    const auto& before = touches.last == other ? touches.others : touches.with_last;
     if (!before) continue;
     const double age = elapsed<double>(*before, now).middle;
     if (age == 0 || (below && age < 2 * *below * (1 - threshold_tolerance))) return Answer::yes;
@@ -243,9 +243,9 @@ Audit::Judgement Audit::judge(Index a, Index b, const Instant& now,
 
 void Audit::note_meeting(Index a, Index b, const Instant& now, bool crowded) {
   for (const auto& [mine, other] : {std::pair(a, b), std::pair(b, a)}) {
-    LastTouches& meeting = last_touches_[mine];
-    meeting.in_crowd = crowded ? meeting.in_crowd + 1 : 0;
-    meeting.note(other, now);
+    LastTouches& touches = last_touches_[mine];
+    touches.in_crowd = crowded ? touches.in_crowd + 1 : 0;
+    touches.note(other, now);
   }
 }
 

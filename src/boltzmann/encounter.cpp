@@ -66,9 +66,9 @@ void Encounter::collide(Touching& pair, const Restitution& rule) const {
   contact.arm_second = pair.arm[1];
   const Vec3d v = a.v - b.v + cross(a.w, a.u) * pair.arm[0] - cross(b.w, b.u) * pair.arm[1];
   const int side = dot(v, contact.normal) > 0 ? -1 : 1;
-  const CollidingPair meeting{a.v, a.w, b.v, b.w, bodies_[0], bodies_[1], contact, side};
-  const Impact impact = rule.is_rough() ? needlework::collide<Surface::rough>(meeting, rule)
-                                        : needlework::collide<Surface::smooth>(meeting, rule);
+  const CollidingPair both{a.v, a.w, b.v, b.w, bodies_[0], bodies_[1], contact, side};
+  const Impact impact = rule.is_rough() ? needlework::collide<Surface::rough>(both, rule)
+                                        : needlework::collide<Surface::smooth>(both, rule);
   a.v = impact.v_first, a.w = project_out(impact.w_first, a.u);
   b.v = impact.v_second, b.w = project_out(impact.w_second, b.u);
   kernels::set_rotation(a);

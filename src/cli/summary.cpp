@@ -67,11 +67,8 @@ std::string energy_lines(const Report& report) {
   const Totals& first = report.result.initial;
   const Totals& last = report.result.last;
   std::string text;
-  const bool cools = last.energy < 0.999 * first.energy;
-  // In the order of times, in which theory follows its curve once.
-  const Totals* before = cools ? decade_before(report.result) : nullptr;
-  const auto theory_before = before ? report.theory_at(*before) : std::nullopt;
   const auto theory = report.theory_at(last);
+  const bool cools = last.energy < 0.999 * first.energy;
   if (cools) {
     text += line("energy", "E/E(0) = {:.4g}", last.energy / first.energy);
     if (theory) {
@@ -79,6 +76,8 @@ std::string energy_lines(const Report& report) {
       text += fmt::format(", theory {:.4g}, measured/theory {:.3f}\n",
                           theory->energy() / first.energy, last.energy / theory->energy());
     }
+    const Totals* before = decade_before(report.result);
+    const auto theory_before = before ? report.theory_at(*before) : std::nullopt;
     if (theory && theory_before) {
       text += line("", "fell as t^{:.2f} over the last decade of time, theory t^{:.2f}",
                    slope(before->energy, last.energy, before->time, last.time),
@@ -229,19 +228,44 @@ const Totals* sample_at(const runs::RunResult& result, double time) {
   return found;
 }
 
-// The course next to that of theory, by decades of time from about the mean free time on; every
-// second or third decade of a long run.
-std::string curve_lines(const Report& report) {
+bool shows_course(const Report& report) {
+  return !runs::starts_in_equilibrium(report.scene) && report.result.last.collisions > 0;
+}
+
+// Those of the course, by decades of time from about the mean free time on; every second or third
+// decade of a long run.
+std::vector<const Totals*> samples_of_course(const Report& report) {
   constexpr int most_rows = 8;
-  const Totals& first = report.result.initial;
   const double mean_free_time = 1 / report.initial_collision_rate();
   const double begin = std::ceil(std::log10(0.5 * mean_free_time));
   const double end = std::floor(std::log10(report.result.last.time));
   const double stride = std::max(1.0, std::ceil((end - begin + 1) / most_rows));
-  std::string rows;
+  std::vector<const Totals*> out;
   for (double decade = begin; decade <= end; decade += stride) {
-    const Totals* sample = sample_at(report.result, std::pow(10, decade));
-    const auto theory = sample ? report.theory_at(*sample) : std::nullopt;
+    if (const Totals* sample = sample_at(report.result, std::pow(10, decade)))
+      out.push_back(sample);
+  }
+  return out;
+}
+
+// Asks theory of all samples below in the order of their times: it follows its curve once then.
+void ask_theory(const Report& report) {
+  std::vector<const Totals*> samples{&report.result.last};
+  if (const Totals* before = decade_before(report.result)) samples.push_back(before);
+  if (shows_course(report)) {
+    const std::vector<const Totals*> more = samples_of_course(report);
+    samples.insert(samples.end(), more.begin(), more.end());
+  }
+  std::ranges::sort(samples, {}, &Totals::time);
+  for (const Totals* sample : samples) report.theory_at(*sample);
+}
+
+// The course next to that of theory.
+std::string curve_lines(const Report& report) {
+  const Totals& first = report.result.initial;
+  std::string rows;
+  for (const Totals* sample : samples_of_course(report)) {
+    const auto theory = report.theory_at(*sample);
     if (!theory) continue;
     rows += fmt::format("{:16}{:<10.4g}{:<12.4g}{:<12.4g}{:<12.4g}{:.4g}\n", "", sample->time,
                         sample->energy / first.energy, theory->energy() / first.energy,
@@ -299,11 +323,12 @@ std::string summary_of(const Report& report) {
   if (const std::string placement = report.simulation.placement(); !placement.empty())
     text += line("start", "{}", placement);
   text += line("end", "{}: time {:.6g}", reason(report.result), last.time);
+  if (report.simulation.composition().is_mixture()) ask_theory(report);
   if (report.result.initial.energy > 0) text += energy_lines(report);
   if (report.simulation.composition().is_mixture())
     text += temperature_lines(report) + pair_lines(report);
   if (runs::starts_in_equilibrium(scene) && last.time > 0) text += rate_line(report);
-  if (!runs::starts_in_equilibrium(scene) && last.collisions > 0) text += curve_lines(report);
+  if (shows_course(report)) text += curve_lines(report);
   text += line("collisions", "{}, {:.4g} per needle", last.collisions,
                last.collisions ? report.collisions_per_needle() : 0.0);
   if (scene.collisions.tc || scene.collisions.tc_relative) {

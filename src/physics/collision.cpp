@@ -39,8 +39,8 @@ Tangential tangential(const kernels::ContactGeometry& c, const Vec3d& v, double 
 }  // namespace
 
 template <Surface surface>
-Impact collide(const CollidingPair& meeting, const Restitution& restitution) {
-  const auto& [v_first, w_first, v_second, w_second, body_first, body_second, c, side] = meeting;
+Impact collide(const CollidingPair& pair, const Restitution& restitution) {
+  const auto& [v_first, w_first, v_second, w_second, body_first, body_second, c, side] = pair;
   const double epsilon = restitution.epsilon;
   constexpr bool turns = surface != Surface::sphere;
   Vec3d v = v_first - v_second;

@@ -39,6 +39,6 @@ enum class Surface {
 /// Rev. E 60, 654 (1999). For unlike needles 2 / m is replaced by 1 / m1 + 1 / m2, and each needle
 /// has its own inertia; at the caps of rods the inertia counts by |u x n|^2 < 1.
 template <Surface surface>
-Impact collide(const CollidingPair& meeting, const Restitution& restitution);
+Impact collide(const CollidingPair& pair, const Restitution& restitution);
 
 }  // namespace needlework

@@ -115,32 +115,22 @@ class RodContact {
 
 static_assert(ContactLaw<RodContact>);
 
-/// The contact of spheres, in gases of spheres alone: that of RodContact, without rotation.
-class SphereContact {
+/// The contact of spheres, in gases of spheres alone: that of rods, without axes and rotation.
+class SphereContact : public RodContact {
  public:
-  using Pair = kernels::RodPair;
-  static constexpr bool has_distance = true, never_overlap = true;
   static constexpr Surface surface = Surface::sphere;
-  static constexpr bool may_be_rough = false, turns = false, slides = false;
+  static constexpr bool turns = false;
 
-  explicit SphereContact(const Accuracy& accuracy) : accuracy_(accuracy) {}
-  const Accuracy& accuracy() const { return accuracy_; }
+  using RodContact::RodContact;
 
   kernels::Contact first_contact(const Pair& pair, double, double to,
                                  kernels::EvaluationCounters& spent) const {
-    return kernels::sphere_contact(pair, to, spent, accuracy_);
+    return kernels::sphere_contact(pair, to, spent, accuracy());
   }
-  double gap(const Pair& pair, const DoubleDouble& elapsed) const {
-    return kernels::rod_gap(pair, elapsed);
-  }
-  int side_after(const Pair&) const { return 1; }
   double time_apart(const Pair& pair) const { return kernels::sphere_time_apart(pair); }
   kernels::ContactGeometry geometry(const Pair& pair, const DoubleDouble& elapsed) const {
     return kernels::sphere_geometry(pair, elapsed);
   }
-
- private:
-  Accuracy accuracy_;
 };
 
 static_assert(ContactLaw<SphereContact>);

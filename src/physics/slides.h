@@ -83,7 +83,7 @@ class Slides {
   std::unordered_map<std::uint64_t, std::unique_ptr<Slide>> slides_;
 };
 
-/// The course of a needle from a later time on, whether or not it slides.
+/// The trajectory of a needle from a later time on, whether or not it slides.
 class NeedleTrajectory final : public kernels::Trajectory {
  public:
   /// `slide` is null for a needle in free flight. From `delay` after its record on.

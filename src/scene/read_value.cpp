@@ -4,7 +4,7 @@
 
 #include "src/scene/printable.h"
 
-namespace needlework::from_toml {
+namespace needlework::from_value {
 
 std::optional<double> number(const Value& value, const ValueRange& range) {
   std::optional<double> x;
@@ -45,4 +45,4 @@ std::optional<std::string> one_of(const Value& value,
   return known ? name : std::nullopt;
 }
 
-}  // namespace needlework::from_toml
+}  // namespace needlework::from_value

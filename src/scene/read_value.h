@@ -13,7 +13,7 @@
 #include "src/scene/entry.h"
 #include "src/scene/section.h"
 
-namespace needlework::from_toml {
+namespace needlework::from_value {
 
 /// Stores a value that was read. Returns false if there is none.
 template <typename T, typename U>
@@ -31,4 +31,4 @@ std::optional<std::string> text(const Value& value);
 std::optional<std::string> one_of(const Value& value,
                                   std::initializer_list<std::string_view> names);
 
-}  // namespace needlework::from_toml
+}  // namespace needlework::from_value

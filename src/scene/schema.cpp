@@ -25,7 +25,7 @@ SceneSection title() {
                     {},
                     "a string without control characters",
                     [](Scene& s, const Value& v, const ValueRange&) {
-                      return from_toml::store(s.title, from_toml::text(v));
+                      return from_value::store(s.title, from_value::text(v));
                     }}},
           .rules = {{Aspect::restored, text_is_too_long}}};
 }

@@ -43,8 +43,8 @@ struct LastTouches {
   /// The latest time with any needle but this one, or a wall.
   Time but(Id partner) const { return last == partner ? others : with_last; }
 
-  friend void transfer(Archive& archive, LastTouches& meetings) {
-    archive(meetings.last.value, meetings.with_last, meetings.others, meetings.in_crowd);
+  friend void transfer(Archive& archive, LastTouches& touches) {
+    archive(touches.last.value, touches.with_last, touches.others, touches.in_crowd);
   }
 };
 

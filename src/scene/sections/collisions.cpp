@@ -62,7 +62,7 @@ std::optional<Violation> these_do_not_slide(const Scene& scene) {
 }  // namespace
 
 SceneSection collisions_section() {
-  using namespace from_toml;
+  using namespace from_value;
   using V = const Value&;
   using R = const ValueRange&;
   return {

@@ -36,7 +36,7 @@ std::optional<Violation> thermostat_is_beside_gravity(const Scene& scene) {
 }  // namespace
 
 SceneSection driving_section() {
-  using namespace from_toml;
+  using namespace from_value;
   using V = const Value&;
   using R = const ValueRange&;
   return {

@@ -16,7 +16,7 @@ namespace {
 constexpr double most_threads = 1024;
 
 std::optional<std::string> calendar(const Value& value) {
-  const auto name = from_toml::text(value);
+  const auto name = from_value::text(value);
   const auto& names = calendar_names();
   const bool known = name == "auto" || std::find(names.begin(), names.end(), name) != names.end();
   return known ? name : std::nullopt;
@@ -37,9 +37,9 @@ std::string_view calendars_to_choose() {
 bool read_threads(Scene& scene, const Value& value, const ValueRange& range) {
   Scene::Engine& engine = scene.engine;
   engine.threads.reset();
-  engine.threads_by_size = from_toml::one_of(value, {"auto"}).has_value();
+  engine.threads_by_size = from_value::one_of(value, {"auto"}).has_value();
   return engine.threads_by_size ||
-         from_toml::store(engine.threads, from_toml::whole_number(value, range));
+         from_value::store(engine.threads, from_value::whole_number(value, range));
 }
 
 std::optional<Violation> parts_are_for_one_thread(const Scene& scene) {
@@ -67,7 +67,7 @@ std::optional<Violation> processor_lacks_instructions(const Scene& scene) {
 }  // namespace
 
 SceneSection engine_section() {
-  using namespace from_toml;
+  using namespace from_value;
   using V = const Value&;
   using R = const ValueRange&;
   return {

@@ -13,7 +13,7 @@ namespace needlework {
 namespace {
 
 std::optional<std::array<double, 3>> acceleration(const Value& value, const ValueRange& range) {
-  const auto out = from_toml::three_numbers(value, range);
+  const auto out = from_value::three_numbers(value, range);
   const auto is_too_small = [](double g) { return g != 0 && std::abs(g) < 1 / largest_rate; };
   return out && std::ranges::none_of(*out, is_too_small) ? out : std::nullopt;
 }
@@ -54,7 +54,7 @@ std::optional<Violation> energy_ends_what_gravity_drives(const Scene& scene) {
 }  // namespace
 
 SceneSection forces_section() {
-  using namespace from_toml;
+  using namespace from_value;
   using V = const Value&;
   using R = const ValueRange&;
   return {

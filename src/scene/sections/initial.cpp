@@ -15,7 +15,7 @@ std::optional<std::string> path_to_read(const Value& value) {
 }  // namespace
 
 SceneSection initial_section() {
-  using namespace from_toml;
+  using namespace from_value;
   using V = const Value&;
   using R = const ValueRange&;
   constexpr const char* not_both = "expected either file or temperatures to draw, not both";

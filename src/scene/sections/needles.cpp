@@ -21,8 +21,8 @@ constexpr ValueRange box_edges{1e-6, largest_edge(1)};
 constexpr ValueRange seeds{0, static_cast<double>(std::numeric_limits<std::int64_t>::max())};
 
 std::optional<std::array<double, 3>> box_in(const Value& value, const ValueRange& range) {
-  if (const auto side = from_toml::number(value, range)) return std::array{*side, *side, *side};
-  return from_toml::three_numbers(value, range);
+  if (const auto side = from_value::number(value, range)) return std::array{*side, *side, *side};
+  return from_value::three_numbers(value, range);
 }
 
 Violation violation_of_box(const Scene& scene, std::string reason) {
@@ -78,7 +78,7 @@ std::optional<Violation> rods_fill_more_than_any_packing(const Scene& scene) {
 }  // namespace
 
 SceneSection needles_section() {
-  using namespace from_toml;
+  using namespace from_value;
   using V = const Value&;
   using R = const ValueRange&;
   return {

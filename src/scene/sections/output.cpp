@@ -23,7 +23,7 @@ std::optional<std::vector<double>> increasing_times(const Value& value) {
   if (!array) return std::nullopt;
   std::vector<double> times;
   for (const Value& element : *array) {
-    const auto time = from_toml::number(element, {0});
+    const auto time = from_value::number(element, {0});
     if (!time || (!times.empty() && *time <= times.back())) return std::nullopt;
     times.push_back(*time);
   }
@@ -31,9 +31,9 @@ std::optional<std::vector<double>> increasing_times(const Value& value) {
 }
 
 bool read_frames(Scene& scene, const Value& value, const ValueRange& range) {
-  if (from_toml::store(scene.output.frames_per_decade, from_toml::number(value, range)))
+  if (from_value::store(scene.output.frames_per_decade, from_value::number(value, range)))
     return true;
-  return from_toml::store(scene.output.frame_times, increasing_times(value));
+  return from_value::store(scene.output.frame_times, increasing_times(value));
 }
 
 std::vector<std::string_view> all_observables() {
@@ -62,7 +62,7 @@ std::optional<std::vector<std::string>> observables(const Value& value) {
   if (!array) return std::nullopt;
   std::vector<std::string> names;
   for (const Value& element : *array) {
-    const auto name = from_toml::text(element);
+    const auto name = from_value::text(element);
     if (!name || !is_observable(*name)) return std::nullopt;
     names.push_back(*name);
   }
@@ -78,13 +78,13 @@ std::string_view expected_observables() {
 
 std::optional<std::array<int, 3>> grid(const Value& value, const ValueRange& range) {
   std::array<int, 3> cells{};
-  if (const auto all = from_toml::whole_number(value, range)) {
+  if (const auto all = from_value::whole_number(value, range)) {
     cells.fill(static_cast<int>(*all));
   } else {
     const auto* array = value.as<Value::Array>();
     if (!array || array->size() != 3) return std::nullopt;
     for (std::size_t axis = 0; axis < 3; ++axis)
-      if (!from_toml::store(cells[axis], from_toml::whole_number((*array)[axis], range)))
+      if (!from_value::store(cells[axis], from_value::whole_number((*array)[axis], range)))
         return std::nullopt;
   }
   const double product = double(cells[0]) * cells[1] * cells[2];
@@ -107,7 +107,7 @@ std::optional<Violation> no_walls_to_observe(const Scene& scene) {
 }  // namespace
 
 SceneSection output_section() {
-  using namespace from_toml;
+  using namespace from_value;
   using V = const Value&;
   using R = const ValueRange&;
   return {

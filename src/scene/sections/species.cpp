@@ -154,14 +154,14 @@ std::optional<std::array<std::string, 2>> two_names(const Value& value) {
   if (!names || names->size() != 2) return std::nullopt;
   std::array<std::string, 2> out;
   for (std::size_t n = 0; n < 2; ++n)
-    if (!from_toml::store(out[n], from_toml::text((*names)[n]))) return std::nullopt;
+    if (!from_value::store(out[n], from_value::text((*names)[n]))) return std::nullopt;
   return out;
 }
 
 }  // namespace
 
 SceneSection species_section() {
-  using namespace from_toml;
+  using namespace from_value;
   using V = const Value&;
   using R = const ValueRange&;
   constexpr const char* not_both =
@@ -221,7 +221,7 @@ SceneSection species_section() {
 }
 
 SceneSection pairs_section() {
-  using namespace from_toml;
+  using namespace from_value;
   using V = const Value&;
   using R = const ValueRange&;
   return {

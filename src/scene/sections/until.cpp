@@ -25,7 +25,7 @@ std::optional<Violation> no_end_is_ever_met(const Scene& scene) {
 }  // namespace
 
 SceneSection until_section() {
-  using namespace from_toml;
+  using namespace from_value;
   using V = const Value&;
   using R = const ValueRange&;
   return {

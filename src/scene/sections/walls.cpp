@@ -76,7 +76,7 @@ std::optional<Violation> needles_would_leave(const Scene& scene) {
 }  // namespace
 
 SceneSection walls_section() {
-  using namespace from_toml;
+  using namespace from_value;
   using V = const Value&;
   using R = const ValueRange&;
   return {

@@ -1,0 +1,376 @@
+// Brackets the first contact of the seeker with each of its candidates from below, in single
+// precision. Part of near_needles_body.h, which says what rounding does.
+
+struct Turned {
+  Floats cosine, sine;
+};
+
+/// Sine and cosine of angles below 2^12 within 2^-20; beyond 2^15 ever worse, and from 2^22 on
+/// anything.
+NEEDLEWORK_INLINE Turned sine_cosine(Floats angle) {
+  // To the nearest quarter of a circle; pi / 2 in three parts of few bits.
+  const Floats to_whole(0x1.8p23f);
+  const Floats shifted = multiply_add(angle, Floats(0.636619772f), to_whole),
+               k = shifted - to_whole;
+  const Floats x = subtract_product(
+      subtract_product(subtract_product(angle, k, Floats(0x1.92p0f)), k, Floats(0x1.fb4p-12f)), k,
+      Floats(0x1.4442d2p-24f));
+  // Grouped so that little waits for what comes before.
+  const Floats xx = x * x, xxxx = xx * xx;
+  Turned out;
+  out.sine =
+      subtract_product(x, x * xx,
+                       multiply_add(xxxx, Floats(1.0f / 5040),
+                                    subtract_product(Floats(1.0f / 6), xx, Floats(1.0f / 120))));
+  out.cosine =
+      multiply_add(xxxx,
+                   multiply_add(xxxx, Floats(1.0f / 40320),
+                                subtract_product(Floats(1.0f / 24), xx, Floats(1.0f / 720))),
+                   subtract_product(Floats(1.0f), xx, Floats(0.5f)));
+  turn(shifted, out.cosine, out.sine);
+  return out;
+}
+
+/// The contact function of pairs at one time each, with three derivatives; and the motion along the
+/// gap between the needles: projections on it of the relative centre and velocity, and of the
+/// directors and their rates times the half lengths.
+struct SimdSample {
+  Floats f, df, ddf, dddf;
+  Floats gap;  // its length, or a little more: any vector bounds the distance along itself
+  Floats centre, velocity, director[2], turning[2];
+};
+
+/// The seeker's and the others' rotation and half lengths, and the relative centres, from now on.
+struct SimdPairs {
+  V3 r, v, u[2], p[2];
+  Floats omega[2], age[2], half[2];
+};
+
+NEEDLEWORK_INLINE SimdSample sample(const SimdPairs& pair, Floats s) {
+  V3 n[2], d[2];
+  for (int i = 0; i < 2; ++i) {
+    const Turned t = sine_cosine(pair.omega[i] * (s + pair.age[i]));
+    n[i] = add_scaled(pair.u[i] * t.cosine, pair.p[i], t.sine);
+    d[i] = subtract_scaled(pair.p[i] * t.cosine, pair.u[i], t.sine) * pair.omega[i];
+  }
+  const V3 c = add_scaled(pair.r, pair.v, s), x = cross(n[0], n[1]);
+  const V3 dx[2] = {cross(d[0], n[1]), cross(n[0], d[1])}, dd = cross(d[0], d[1]);
+  const Floats square[2] = {pair.omega[0] * pair.omega[0], pair.omega[1] * pair.omega[1]};
+  const Floats squares = square[0] + square[1];
+  const Floats vx = dot(pair.v, x), vdx = dot(pair.v, dx[0] + dx[1]), vdd = dot(pair.v, dd);
+  const Floats cdx[2] = {dot(c, dx[0]), dot(c, dx[1])}, cdd = dot(c, dd);
+  SimdSample out;
+  out.f = dot(c, x);
+  out.df = vx + (cdx[0] + cdx[1]);
+  out.ddf = (vdx + vdx) + subtract_product(cdd + cdd, squares, out.f);
+  out.dddf =
+      subtract_product(subtract_product(Floats(3.0f) * subtract_product(vdd + vdd, squares, vx),
+                                        squares + (square[1] + square[1]), cdx[0]),
+                       squares + (square[0] + square[0]), cdx[1]);
+  const V3 gap = segment_gap(c, n[0], n[1], x, dot(x, x), half_lengths(pair.half[0], pair.half[1]));
+  out.gap = rough_length(gap);
+  out.centre = dot(gap, c);
+  out.velocity = dot(gap, pair.v);
+  for (int i = 0; i < 2; ++i) {
+    out.director[i] = dot(gap, n[i]) * pair.half[i];
+    out.turning[i] = dot(gap, d[i]) * pair.half[i];
+  }
+  return out;
+}
+
+/// Those of the vector that begins with pair k.
+NEEDLEWORK_INLINE SimdPairs load_pairs(const Seeker& seeker, const PairColumns& pairs,
+                                       std::size_t k) {
+  using C = PairColumns;
+  const auto column = [&](int c) NEEDLEWORK_TARGET { return load_floats(pairs.column[c] + k); };
+  SimdPairs pair;
+  pair.r = {column(C::r_x), column(C::r_y), column(C::r_z)};
+  pair.v = {column(C::v_x), column(C::v_y), column(C::v_z)};
+  pair.u[0] = broadcast(seeker.motion.u);
+  pair.p[0] = broadcast(seeker.motion.p);
+  pair.omega[0] = Floats(seeker.motion.omega);
+  pair.age[0] = Floats(0.0f);
+  pair.half[0] = Floats(seeker.motion.half);
+  pair.u[1] = {column(C::u_x), column(C::u_y), column(C::u_z)};
+  pair.p[1] = {column(C::p_x), column(C::p_y), column(C::p_z)};
+  pair.omega[1] = column(C::omega);
+  pair.age[1] = column(C::age);
+  pair.half[1] = column(C::half);
+  return pair;
+}
+
+/// Bounds on the contact function of pairs up to a time, and on its rounding errors.
+struct SimdBounds {
+  Floats speed, margin;  // speed of a point half a unit from its centre relative to another
+  Floats reach_squared;  // of the centres, where needles may touch
+  // While the bounding spheres overlap f'' is at most `bend`, and the fourth derivative 4! `coil`:
+  // derivative n of u1 x u2 is at most (|w1| + |w2|)^n, and the second of the centres is 0.
+  Floats bend, coil;
+  Floats tips_bend;  // times t^2: how far tips depart from straight lines in a time t
+  Floats error_f, error_df, error_ddf, error_dddf;
+  Mask trusted;  // the phases are not too large for these bounds on errors
+};
+
+/// `distance`: how near each other axes touch, for rods.
+template <bool wide = false>
+NEEDLEWORK_INLINE SimdBounds bounds_of(const Seeker& seeker, const SimdPairs& pair, Floats until,
+                                       Floats distance = Floats(0.0f)) {
+  SimdBounds out;
+  const Floats half(0.5f), one(1.0f), w = pair.omega[0] + pair.omega[1];
+  // What follows from speeds and from the arm grows with them, and none may be too small.
+  const Floats v = rough_length(pair.v);
+  out.speed = multiply_add(half, w, v);
+  // The errors of times, 2^-20, and of phases, 2^-23 of themselves, and the caller's margin.
+  const Floats swift = norm_1(broadcast(seeker.motion.v)) + (norm_1(pair.v) + w);
+  const Floats phase = multiply_add(pair.omega[1], pair.age[1] + until, pair.omega[0] * until);
+  out.margin = multiply_add(phase, Floats(0x1p-20f),
+                            multiply_add(swift, Floats(0x1p-18f), Floats(seeker.margin)));
+  out.trusted = phase < Floats(0x1p12f);
+  Floats reach = (pair.half[0] + pair.half[1] + Floats(0x1p-10f)) + out.margin;
+  if constexpr (wide) reach = reach + distance;
+  out.reach_squared = multiply_add(reach, reach, dot(pair.r, pair.r) * Floats(0x1p-18f));
+  const Floats arm = Floats((1 + 0x1p-8f) * (1 + rough_spare)) * rough_root(out.reach_squared);
+  const Floats turn = arm * w;
+  out.bend = ((v + v) + turn) * w;
+  out.coil = multiply_add(Floats(4.0f), v, turn) * (w * w * w) * Floats(1.0f / 24);
+  out.tips_bend = half * multiply_add(pair.half[0], pair.omega[0] * pair.omega[0],
+                                      pair.half[1] * (pair.omega[1] * pair.omega[1]));
+  // The largest second and third derivatives of needles whose centres are one unit apart or more.
+  const Floats unit_turn = maximum(one, arm) * w;
+  const Floats bend = ((v + v) + unit_turn) * w, twist = ((v + v + v) + unit_turn) * (w * w);
+  out.error_f = out.margin + out.margin;
+  out.error_df = out.margin * (out.speed + out.speed);
+  out.error_ddf = out.margin * (bend + bend);
+  out.error_dddf = out.margin * (twist + twist);
+  return out;
+}
+
+void contact_function(const Seeker& seeker, const PairColumns& pairs, std::size_t n, float s,
+                      const ContactColumns& out) {
+  using C = ContactColumns;
+  for (std::size_t k = 0; k < n; k += floats_at_once) {
+    const SimdPairs pair = load_pairs(seeker, pairs, k);
+    const SimdSample e = sample(pair, Floats(s));
+    const SimdBounds bounds = bounds_of(seeker, pair, Floats(s));
+    const Floats values[C::columns] = {e.f,
+                                       e.df,
+                                       e.ddf,
+                                       e.dddf,
+                                       e.gap,
+                                       bounds.error_f,
+                                       bounds.error_df,
+                                       bounds.error_ddf,
+                                       bounds.error_dddf};
+    for (int c = 0; c < C::columns; ++c) store_floats(values[c], out.column[c] + k);
+  }
+}
+
+/// The time from now on in which the bounding spheres of pairs overlap, widened by a margin.
+struct SimdTimeSpan {
+  Floats begin, end;
+  Mask never;
+};
+
+NEEDLEWORK_INLINE SimdTimeSpan overlap_of_spheres(const SimdPairs& pair, const SimdBounds& bounds) {
+  const Floats zero(0.0f), margin(static_cast<float>(time_margin));
+  const Floats a = dot(pair.v, pair.v), b = dot(pair.r, pair.v);
+  const Floats c = dot(pair.r, pair.r) - bounds.reach_squared;
+  const Floats discriminant = subtract_product(b * b, a, c);
+  const Floats root = square_root(maximum(discriminant, zero));
+  const Mask outside = c > zero;
+  const Floats q = select(b > zero, -(b + root), root - b);
+  return {select(outside, c / q, zero), select(b > zero, c / q, q / a) + margin,
+          outside & ((b >= zero) | (discriminant < zero))};
+}
+
+/// Shares of a span, before and after the time of a sample, in which pairs surely do not meet.
+struct SimdShares {
+  Floats before, after;
+};
+
+/// Those of the span h, by two bounds on how far the needles are from a contact: the contact
+/// function with its sign, by Taylor's expansion, and the distance along the gap between the
+/// needles at the time of the sample, which alone holds for rods and is less by the distance at
+/// which these touch. Each bound is a value less a term linear in time and one quadratic in time.
+template <bool wide>
+NEEDLEWORK_INLINE SimdShares free_around(const SimdSample& e, const SimdBounds& bounds, Floats h,
+                                         Floats distance) {
+  const Floats zero(0.0f), one(1.0f), half(0.5f), sixth(1.0f / 6);
+  const Mask known = bounds.trusted & (e.gap < Floats(0x1p10f));
+
+  const Mask negative = e.f < zero;
+  const Floats f_now = subtract_product(absolute(e.f) - bounds.error_f, h, bounds.error_df);
+  const Floats f_rises = h * select(negative, -e.df, e.df);
+  const Floats f_twists =
+      multiply_add(h, bounds.coil, sixth * (absolute(e.dddf) + bounds.error_dddf));
+  const Floats f_bends =
+      multiply_add(h, f_twists, half * (bounds.error_ddf - select(negative, -e.ddf, e.ddf)));
+  const Floats f_bent = h * h * maximum(zero, f_bends);
+
+  const auto along_gap = [&](Floats centre, Floats a, Floats b)
+                             NEEDLEWORK_TARGET { return centre - (absolute(a) + absolute(b)); };
+  const Floats g = along_gap(e.centre, e.director[0], e.director[1]);
+  Floats g_error = bounds.error_f;
+  if constexpr (wide) g_error = g_error + distance;
+  const Floats g_now = subtract_product(g, g_error, e.gap);
+  const Floats g_before = along_gap(subtract_product(e.centre, h, e.velocity),
+                                    subtract_product(e.director[0], h, e.turning[0]),
+                                    subtract_product(e.director[1], h, e.turning[1])) -
+                          g;
+  const Floats g_after =
+      along_gap(multiply_add(h, e.velocity, e.centre), multiply_add(h, e.turning[0], e.director[0]),
+                multiply_add(h, e.turning[1], e.director[1])) -
+      g;
+  const Floats g_bent = bounds.tips_bend * (h * h) * e.gap;
+
+  // The share of h in which a bound stays above 0: the root of now + rises x - bent x^2, rounded
+  // towards 0, that is with a spread not below the root, of which an infinite one is not a number.
+  // A share that is not a number counts as 0.
+  const auto spread = [&](Floats now, Floats rises, Floats bent) NEEDLEWORK_TARGET {
+    const Floats twice = now + now;
+    return rough_root(multiply_add(twice + twice, bent, rough_square(rises))) *
+           Floats((1 + rough_spare) * (1 + 0x1p-20f));
+  };
+  // Not one but for the first reason, and never the quotient of subnormal numbers.
+  const auto share = [&](Floats now, Floats falls) NEEDLEWORK_TARGET {
+    const Floats twice = now + now;
+    return select(
+        now > Floats(0x1p-100f),
+        select(falls <= twice, one, rough_quotient(twice * Floats(1 - rough_spare), falls)), zero);
+  };
+  const Floats along_before = share(g_now, spread(g_now, g_before, g_bent) - g_before),
+               along_after = share(g_now, spread(g_now, g_after, g_bent) - g_after);
+  if constexpr (wide) return {select(known, along_before, zero), select(known, along_after, zero)};
+  const Floats f_spread = spread(f_now, f_rises, f_bent);
+  return {select(known, maximum(share(f_now, f_spread + f_rises), along_before), zero),
+          select(known, maximum(share(f_now, f_spread - f_rises), along_after), zero)};
+}
+
+/// bracket() for the vector that begins with pair k, of those before `end`. `part` holds which of
+/// the `parts` of its pair's time each pair of the vector is searched in.
+template <bool wide>
+NEEDLEWORK_INLINE std::size_t bracket_vector(const Seeker& seeker, const PairColumns& pairs,
+                                             std::size_t k, std::size_t end, const float* part,
+                                             std::size_t parts) {
+  using C = PairColumns;
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  const Floats zero(0.0f), one(1.0f), half(0.5f), margin(static_cast<float>(time_margin));
+  const auto column = [&](int c) NEEDLEWORK_TARGET { return load_floats(pairs.column[c] + k); };
+  const SimdPairs pair = load_pairs(seeker, pairs, k);
+  Floats distance = zero;
+  if constexpr (wide) distance = column(C::distance);
+  const SimdBounds bounds = bounds_of<wide>(seeker, pair, column(C::until), distance);
+  const SimdTimeSpan overlap = overlap_of_spheres(pair, bounds);
+  Floats until = minimum(overlap.end, column(C::until));
+  Floats low = maximum(maximum(overlap.begin, column(C::from)) - margin, zero);
+  if (parts > 1) {
+    const Floats span = (until - low) * Floats(1.0f / static_cast<float>(parts)),
+                 begin = load_floats(part);
+    const Mask last = begin >= Floats(static_cast<float>(parts - 1));
+    until = select(last, until, multiply_add(span, begin + one, low));
+    low = multiply_add(span, begin, low);
+  }
+
+  const Floats least = rough_quotient(Floats(0x1p-9f), bounds.speed);
+  // Over half a step f'' changes f by no more than 3: longer steps are seldom free. Any step will
+  // do, as what it leaves is searched again; one that is not a number is all the time.
+  const Floats step = Floats(4.8989795f) * rough_inverse_root(bounds.bend);  // sqrt(8 * 3)
+  // Still to be searched: from low to high, and from next on.
+  Floats high = minimum(low + step, until), next = high;
+  Mask searching = first_lanes(end - k) & (!overlap.never) & (low <= until);
+  Floats from(infinity);
+  std::size_t evaluations = 0;
+  for (int round = 0; round < 40 && any(searching); ++round) {
+    ++evaluations;
+    const Floats middle = half * (low + high), h = half * (high - low);
+    const SimdShares free = free_around<wide>(sample(pair, middle), bounds, h, distance);
+    const Mask left = free.before >= one, right = free.after >= one, both = left & right;
+
+    // If the whole first half is free, the search continues in the second half, or after it.
+    // Otherwise it continues in the rest of the first half, and then in the rest of the second.
+    const Floats freed = multiply_add(h, free.after, middle);
+    low = select(left, select(right, next, freed), low);
+    high = select(both, minimum(next + step, until),
+                  select(left, high, subtract_product(middle, h, free.before)));
+    next = select(both, high, select(left | right, next, freed));
+
+    const Mask done = both & (low >= until);
+    const Mask found = searching & (!both) & (high - low <= least);
+    from = select(found, low, from);
+    searching = searching & (!found) & !done;
+  }
+  from = select(searching, low, from);
+  store_floats(maximum(from - margin, zero), pairs.column[C::from] + k);
+  return evaluations;
+}
+
+/// Copies the `count` pairs from k on behind themselves, once for each further part of their time,
+/// and stores in `part` which part each of them is.
+template <bool wide>
+NEEDLEWORK_INLINE void repeat_pairs(const PairColumns& pairs, std::size_t k, std::size_t count,
+                                    std::size_t parts, float* part) {
+  static_assert(PairColumns::distance + 1 == PairColumns::columns);
+  constexpr int columns = wide ? PairColumns::columns : PairColumns::distance;
+  for (std::size_t p = 1; p < parts; ++p) {
+    for (std::size_t lane = 0; lane < count; lane += floats_at_once) {
+      for (float* const* each = pairs.column; each != pairs.column + columns; ++each) {
+        float* const column = *each;
+        store_floats(load_floats(column + k + lane), column + k + p * count + lane);
+      }
+      store_floats(Floats(static_cast<float>(p)), part + p * count + lane);
+    }
+  }
+}
+
+template <bool wide>
+inline std::size_t bracket_all(const Seeker& seeker, const PairColumns& pairs, std::size_t n) {
+  using C = PairColumns;
+  if (n == 0) return 0;
+  // Few pairs do not fill the vectors: each is searched in several parts of its time at once. How
+  // many parts depends on nothing but n, so that no result depends on the position of its pair.
+  const std::size_t parts = std::clamp<std::size_t>(block_size / n, 1, 4);
+  std::size_t evaluations = 0;
+  for (std::size_t k = 0; k < n; k += block_size) {
+    const std::size_t count = std::min(n - k, block_size);
+    float part[2 * block_size] = {};
+    repeat_pairs<wide>(pairs, k, count, parts, part);
+    const std::size_t end = k + parts * count;
+    for (std::size_t at = k; at < end; at += floats_at_once) {
+      evaluations += bracket_vector<wide>(seeker, pairs, at, end, part + (at - k), parts);
+    }
+    float* from = pairs.column[C::from] + k;
+    for (std::size_t i = count; i < parts * count; ++i) {
+      if (from[i] < from[i % count]) from[i % count] = from[i];
+    }
+  }
+  return evaluations;
+}
+
+std::size_t bracket(const Seeker& seeker, const PairColumns& pairs, std::size_t n) {
+  return bracket_all<false>(seeker, pairs, n);
+}
+
+std::size_t bracket_rods(const Seeker& seeker, const PairColumns& pairs, std::size_t n) {
+  return bracket_all<true>(seeker, pairs, n);
+}
+
+/// They meet when their centres come that near, which is the time at which their bounding spheres
+/// do.
+std::size_t bracket_spheres(const Seeker& seeker, const PairColumns& pairs, std::size_t n) {
+  using C = PairColumns;
+  const Floats infinity(std::numeric_limits<float>::infinity()), zero(0.0f);
+  const Floats margin(static_cast<float>(time_margin));
+  std::size_t evaluations = 0;
+  for (std::size_t k = 0; k < n; k += floats_at_once) {
+    ++evaluations;
+    const auto column = [&](int c) NEEDLEWORK_TARGET { return load_floats(pairs.column[c] + k); };
+    const SimdPairs pair = load_pairs(seeker, pairs, k);
+    const Floats until = column(C::until);
+    const SimdTimeSpan overlap =
+        overlap_of_spheres(pair, bounds_of<true>(seeker, pair, until, column(C::distance)));
+    const Floats from = maximum(maximum(overlap.begin, column(C::from)) - margin, zero);
+    const Mask apart = overlap.never | (from > minimum(overlap.end, until));
+    store_floats(select(apart, infinity, from), pairs.column[C::from] + k);
+  }
+  return evaluations;
+}
