@@ -92,13 +92,13 @@ std::vector<KeyValue> values_of(const Scene& scene) {
   return std::move(collected.values);
 }
 
-std::string quoted(const Value& value) {
+std::string in_quotes(const Value& value) {
   if (const auto* truth = value.as<bool>()) return *truth ? "true" : "false";
   if (const auto* whole = value.as<std::int64_t>()) return fmt::to_string(*whole);
   if (const auto* real = value.as<double>()) return fmt::to_string(*real);
-  if (const auto* text = value.as<std::string>()) return quoted(*text);
+  if (const auto* text = value.as<std::string>()) return in_quotes(*text);
   std::vector<std::string> elements;
-  for (const Value& element : *value.as<Value::Array>()) elements.push_back(quoted(element));
+  for (const Value& element : *value.as<Value::Array>()) elements.push_back(in_quotes(element));
   return printable(fmt::format("[{}]", fmt::join(elements, ", ")), 60);
 }
 

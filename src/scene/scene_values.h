@@ -21,6 +21,6 @@ struct KeyValue {
 std::vector<KeyValue> values_of(const Scene& scene);
 
 /// A value as messages quote it.
-std::string quoted(const Value& value);
+std::string in_quotes(const Value& value);
 
 }  // namespace needlework

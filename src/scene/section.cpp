@@ -21,6 +21,6 @@ std::string key_of_entry(std::string_view key, std::size_t entry) {
   return entry == 0 ? std::string(key) : fmt::format("{}#{}", key, entry);
 }
 
-std::string quoted(std::string_view text) { return '"' + printable(text, 60) + '"'; }
+std::string in_quotes(std::string_view text) { return '"' + printable(text, 60) + '"'; }
 
 }  // namespace needlework

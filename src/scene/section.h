@@ -150,7 +150,7 @@ std::string key_of_entry(std::string_view key, std::size_t entry);
 std::string did_you_mean(std::string_view name);
 
 /// A text in quotes, printable, as messages quote it.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 /// Largest frequency, acceleration and strength of kicks; the least is its inverse.
 inline constexpr double largest_rate = 1e100;

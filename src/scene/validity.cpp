@@ -62,7 +62,7 @@ void require_ranges(const Scene& scene, Aspects aspects) {
       continue;
     if (key->read(again, value)) continue;
     throw InputError(fmt::format("the scene: {}{}{} = {}: {}", section, section.empty() ? "" : ".",
-                                 name, quoted(value), key->expected_instead_of(value)));
+                                 name, in_quotes(value), key->expected_instead_of(value)));
   }
 }
 

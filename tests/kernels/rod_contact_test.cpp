@@ -188,6 +188,42 @@ TEST(RodContact, OfSpheresIsThatOfVeryShortRods) {
   }
 }
 
+// Where squares of numbers would overflow or lose digits, too.
+TEST(RodContact, OfSpheresIsTheSameInAllUnitsOfLength) {
+  Flight first{.r = {0.5, 3, 0.25}, .v = {0.1, -1, 0}, .u = {0, 0, 1}, .w = {}, .p = {}};
+  Flight second{.r = {0, 0, 0}, .v = {0, 0.5, 0.25}, .u = {0, 0, 1}, .w = {}, .p = {}};
+  RodPair pair;
+  pair.first = &first;
+  pair.second = &second;
+  pair.half_first = pair.half_second = 0;
+  EvaluationCounters counters;
+  const Contact at_one = rod_contact(pair, 0, 10, counters);
+  const ContactGeometry there = rod_geometry(pair, at_one.elapsed);
+  ASSERT_TRUE(at_one.found);
+  for (const double unit : {0x1p-400, 0x1p-130, 0x1p130, 0x1p400}) {
+    const Flight as_first = first, as_second = second;
+    for (Flight* flight : {&first, &second}) {
+      flight->r = flight->r * unit;
+      flight->v = flight->v * unit;
+    }
+    pair.distance = unit;
+    EXPECT_EQ(rod_contact(pair, 0, 10, counters).elapsed, at_one.elapsed) << unit;
+    const ContactGeometry geometry = rod_geometry(pair, at_one.elapsed);
+    EXPECT_NEAR(geometry.normal.x, there.normal.x, 1e-15) << unit;
+    EXPECT_NEAR(geometry.normal.y, there.normal.y, 1e-15) << unit;
+    EXPECT_NEAR(geometry.normal.z, there.normal.z, 1e-15) << unit;
+    // From where they touch they fly apart for good.
+    Flight leaving = first;
+    leaving.r = second.r + there.normal * unit;
+    leaving.v = second.v + there.normal * unit;
+    pair.first = &leaving;
+    EXPECT_GT(rod_time_apart(pair), 1e6) << unit;
+    pair.first = &first;
+    first = as_first;
+    second = as_second;
+  }
+}
+
 // The least distance is known to 30 digits, and that at contact is one of the doubles next to it.
 TEST(RodContact, DecidesWhetherRodsGrazeToTheLastBit) {
   Random random(6);

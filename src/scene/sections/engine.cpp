@@ -60,7 +60,7 @@ std::optional<Violation> processor_lacks_instructions(const Scene& scene) {
   if (isa == "auto" || std::ranges::find(names, isa) != names.end()) return {};
   return Violation{
       .key = "engine.isa",
-      .value = quoted(isa),
+      .value = in_quotes(isa),
       .reason = fmt::format("expected auto or one that this CPU has ({})", fmt::join(names, ", "))};
 }
 

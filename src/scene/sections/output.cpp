@@ -97,7 +97,7 @@ std::optional<Violation> no_walls_to_observe(const Scene& scene) {
     if (std::ranges::find(wall_observable_names, name) == wall_observable_names.end()) continue;
     return Violation{
         .key = "output.observables",
-        .value = quoted(name),
+        .value = in_quotes(name),
         .reason = fmt::format("expected an entry [[walls]] for {}, which is along axes with walls",
                               name)};
   }

@@ -22,7 +22,7 @@ std::optional<Violation> two_species_have_one_name(const Scene& scene) {
     for (std::size_t before = 0; before < n; ++before) {
       if (scene.species[n].name != scene.species[before].name) continue;
       return Violation{.key = key_of_entry("species.name", n),
-                       .value = quoted(scene.species[n].name),
+                       .value = in_quotes(scene.species[n].name),
                        .reason = "expected a name that no other species has",
                        .or_keys = {key_of_entry("species.name", before)}};
     }
@@ -41,7 +41,7 @@ std::optional<Violation> two_pairs_have_one_name(const Scene& scene) {
       if (is_new) continue;
       return Violation{
           .key = key_of_entry("species.name", n),
-          .value = quoted(scene.species[n].name),
+          .value = in_quotes(scene.species[n].name),
           .reason = fmt::format("expected a name with which only one pair of species is called {}",
                                 printable(name, 200)),
           .or_keys = {key_of_entry("species.name", other),
@@ -109,7 +109,8 @@ std::optional<Violation> needles_are_among_rods(const Scene& scene) {
 }
 
 std::string quoted_pair(const Scene::Pair& pair) {
-  return printable(fmt::format("[{}, {}]", quoted(pair.between[0]), quoted(pair.between[1])), 60);
+  return printable(fmt::format("[{}, {}]", in_quotes(pair.between[0]), in_quotes(pair.between[1])),
+                   60);
 }
 
 std::optional<Violation> pair_is_of_no_species(const Scene& scene) {

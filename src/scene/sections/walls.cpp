@@ -22,7 +22,7 @@ Scene::WallMotion& motion_of(Scene& scene) {
 
 Violation violation_of_side(const Scene& scene, std::size_t entry, std::string reason) {
   return {.key = key_of_entry("walls.side", entry),
-          .value = quoted(scene.walls[entry].side),
+          .value = in_quotes(scene.walls[entry].side),
           .reason = std::move(reason)};
 }
 
