@@ -72,6 +72,12 @@ struct Scene {
   struct Forces {
     std::array<double, 3> gravity{};  ///< acceleration of all needles [L / time^2]
   };
+  /// Uniform shear: a flow along x that grows with y, by images whose rows slide along x.
+  struct Shear {
+    double rate = 0;  ///< d v_x / d y, of either sign [1 / time]
+    double offset =
+        0;  ///< by how much the row of boxes above has slid at the start, in [0, L_x) [L]
+  };
   /// White noise in steps: at the multiples of `every`, each component of a velocity changes by a
   /// Gaussian number of variance translational^2 every, and each component of an angular velocity
   /// normal to the director by one of variance rotational^2 every.
@@ -138,6 +144,7 @@ struct Scene {
   Collisions collisions;
   std::vector<Wall> walls;
   Forces forces;
+  std::optional<Shear> shear;
   Driving driving;
   Engine engine;
   Until until;

@@ -124,14 +124,14 @@ struct SlidingContacts {
 struct EnergyBudget {
   double pairs = 0;
   std::vector<double> walls;  ///< in the order of wall_totals()
-  std::optional<double> thermostat, kicks, gravity;
+  std::optional<double> thermostat, kicks, gravity, shear;
   double velocities_set = 0;
 
   /// With 0 for what the scene has not.
   EnergyBudget complete() const {
     EnergyBudget out = *this;
     if (walls.empty()) out.walls = {0};
-    for (std::optional<double>* each : {&out.thermostat, &out.kicks, &out.gravity})
+    for (std::optional<double>* each : {&out.thermostat, &out.kicks, &out.gravity, &out.shear})
       if (!*each) *each = 0;
     return out;
   }
@@ -153,6 +153,7 @@ struct EnergyBudget {
     if (gravity) {
       visit(Described{"gravity", unit::energy, "Energy by gravity along periodic axes"}, *gravity);
     }
+    if (shear) visit(Described{"shear", unit::energy, "Energy by uniform shear"}, *shear);
   }
 };
 

@@ -11,20 +11,26 @@
 
 #include "kernels/double_double.h"
 #include "needlework/state.h"
+#include "src/box/shear.h"
 #include "src/box/vector.h"
 
 namespace needlework {
 
-/// Number of boxes added to a needle's recorded centre along each axis.
+/// Number of boxes added to a needle's recorded centre along each axis; along x modulo 2^32 where
+/// rows of boxes slide, as there are more the longer they have slid.
 using Shift = std::array<std::int32_t, 3>;
 /// a == b, without a call of memcmp.
 inline bool same(const Shift& a, const Shift& b) {
   return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
-inline Shift operator-(const Shift& a) { return {-a[0], -a[1], -a[2]}; }
 inline Shift operator-(const Shift& a, const Shift& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  const auto less = [&](std::size_t axis) {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(a[axis]) -
+                                     static_cast<std::uint32_t>(b[axis]));
+  };
+  return {less(0), less(1), less(2)};
 }
+inline Shift operator-(const Shift& a) { return Shift{} - a; }
 inline Shift operator+(const Shift& a, const Shift& b) { return a - (-b); }
 
 /// The same where there is no bound on it: whole numbers.
@@ -50,21 +56,32 @@ struct Wrapped {
 };
 
 /// The box at one instant, such as that of a state; of a gas it is Gas::box_at(). Along an axis
-/// that is not periodic there are no images, and centres may be beyond the edges.
+/// that is not periodic there are no images, and centres may be beyond the edges. Where rows of
+/// boxes slide, the box above is RowSlide beside this one, and flies past it.
 class Box {
  public:
   Box() = default;
   Box(const Vector& edges, const std::array<bool, 3>& periodic = {true, true, true})
       : edges_(edges), periodic_(periodic) {}
 
+  /// The same at an instant at which the row above has slid so far.
+  Box with_rows(const RowSlide& above) const {
+    Box out = *this;
+    out.slides_ = true;
+    out.above_ = above;
+    return out;
+  }
+
   const Vector& edges() const { return edges_; }  ///< [L]
+  const RowSlide& row_above() const { return above_; }
   double edge(std::size_t axis) const { return edges_[axis]; }
   double longest_edge() const { return std::max({edges_[0], edges_[1], edges_[2]}); }
   double sum_of_edges() const { return (edges_[0] + edges_[1]) + edges_[2]; }
   double volume() const { return edges_[0] * edges_[1] * edges_[2]; }
   /// The vectors by which images are apart, one for each axis. [L]
   std::array<Vector, 3> vectors() const {
-    return {Vector{edges_[0], 0, 0}, Vector{0, edges_[1], 0}, Vector{0, 0, edges_[2]}};
+    return {Vector{edges_[0], 0, 0}, Vector{to_double(above_.offset), edges_[1], 0},
+            Vector{0, 0, edges_[2]}};
   }
 
   const std::array<bool, 3>& periodic() const { return periodic_; }
@@ -78,9 +95,11 @@ class Box {
   /// The image that is a whole number of boxes away: a Shift, or Boxes. Exact as DoubleDouble.
   template <class Real = double, class Number>
   Image<Real> image(const std::array<Number, 3>& boxes) const {
-    return {{product<Real>(boxes[0], edges_[0]), product<Real>(boxes[1], edges_[1]),
-             product<Real>(boxes[2], edges_[2])},
-            {}};
+    Image<Real> out{{product<Real>(boxes[0], edges_[0]), product<Real>(boxes[1], edges_[1]),
+                     product<Real>(boxes[2], edges_[2])},
+                    {}};
+    if (slides_ && boxes[1] != 0) slide(boxes[0], boxes[1], out);
+    return out;
   }
   /// A centre less so many boxes, with one rounding.
   Vector less(const Vector& centre, const Boxes& boxes) const {
@@ -92,6 +111,7 @@ class Box {
 
   /// A centre, at least 0 and less than the edge along each periodic axis.
   Wrapped wrap(const Vector& centre) const {
+    if (slides_) return wrap_in_rows(centre);
     const Along x = wrap_along(0, centre[0]), y = wrap_along(1, centre[1]),
                 z = wrap_along(2, centre[2]);
     return {{x.place, y.place, z.place}, {x.boxes, y.boxes, z.boxes}};
@@ -110,6 +130,7 @@ class Box {
   /// The boxes by which the second of two centres must be shifted to be nearest to the first;
   /// `apart` is the first less the second. [L]
   Boxes nearest(const Vec3d& apart) const {
+    if (slides_) return nearest_in_rows(apart);
     return {nearest_along(0, apart.x), nearest_along(1, apart.y), nearest_along(2, apart.z)};
   }
   /// From the nearest image of the second centre to the first. [L]
@@ -121,6 +142,7 @@ class Box {
   template <class Visit>
   void for_each_image_near(const Vec3d& r, const Vec3d& v, double reach, double time,
                            Visit&& visit) const {
+    if (slides_) return for_each_image_in_rows(r, v, reach, time, visit);
     const Range x = images_along(0, r.x, v.x, reach, time);
     const Range y = images_along(1, r.y, v.y, reach, time);
     const Range z = images_along(2, r.z, v.z, reach, time);
@@ -166,8 +188,55 @@ class Box {
             static_cast<std::int32_t>(std::floor((r + std::fmax(0, travel) + wide) / edge))};
   }
 
+  // Adds to an image what the row is beside this one. In whole boxes of the present slide there are
+  // few, however long rows have slid.
+  template <class Real>
+  void slide(double boxes, double rows, Image<Real>& image) const {
+    image.place.x = product<Real>(boxes_now(boxes, rows), edges_[0]);
+    if constexpr (std::is_same_v<Real, DoubleDouble>)
+      image.place.x = image.place.x + above_.offset * DoubleDouble(rows);
+    else
+      image.place.x += above_.offset.hi * rows;
+    image.velocity.x = above_.velocity * rows;
+  }
+  // Of an image so many rows up: those by which the reduced slide is less than what has been slid
+  // are added, and taken away by boxes_ever().
+  double boxes_now(double boxes, double rows) const {
+    return modulo_32(modulo(boxes) + modulo(rows) * above_.boxes);
+  }
+  double boxes_ever(double boxes, double rows) const {
+    return modulo_32(modulo(boxes) - modulo(rows) * above_.boxes);
+  }
+  static std::uint32_t modulo(double boxes) {
+    return static_cast<std::uint32_t>(static_cast<std::int64_t>(boxes));
+  }
+  static double modulo_32(std::uint32_t boxes) { return static_cast<std::int32_t>(boxes); }
+  Wrapped wrap_in_rows(const Vector& centre) const;
+  // In which row an image is comes first: where it is along x depends on that.
+  Boxes nearest_in_rows(const Vec3d& apart) const {
+    const double y = nearest_along(1, apart.y);
+    const double x = nearest_along(0, apart.x - y * above_.offset.hi);
+    return {boxes_ever(x, y), y, nearest_along(2, apart.z)};
+  }
+  template <class Visit>
+  void for_each_image_in_rows(const Vec3d& r, const Vec3d& v, double reach, double time,
+                              Visit&& visit) const {
+    const Range y = images_along(1, r.y, v.y, reach, time);
+    const Range z = images_along(2, r.z, v.z, reach, time);
+    for (std::int32_t ny = y.first; ny <= y.last; ++ny) {
+      const Range x =
+          images_along(0, r.x - ny * above_.offset.hi, v.x - ny * above_.velocity, reach, time);
+      for (std::int32_t nx = x.first; nx <= x.last; ++nx) {
+        const auto ever = static_cast<std::int32_t>(boxes_ever(nx, ny));
+        for (std::int32_t nz = z.first; nz <= z.last; ++nz) visit(Shift{ever, ny, nz});
+      }
+    }
+  }
+
   Vector edges_{};
   std::array<bool, 3> periodic_{true, true, true};
+  bool slides_ = false;
+  RowSlide above_;
 };
 
 /// The box at the instant of the state.

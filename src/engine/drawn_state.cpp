@@ -92,6 +92,7 @@ Scene elastic(const Scene& scene, const State& state) {
   out.forces = {};
   out.driving = {};
   out.output = {};
+  if (out.shear) out.shear->rate = 0;  // a box that is tilted as the scene's is at its start
   const std::array<Gap, 3> gaps = gaps_of(scene);
   for (Scene::Wall& wall : out.walls) {
     wall.epsilon = 1;
@@ -179,10 +180,8 @@ std::optional<DrawnState> inserted(const Scene& scene, double most_tries_on_aver
   return out;
 }
 
-}  // namespace
-
-DrawnState draw_state(const Scene& scene) {
-  require_valid(scene, drawable);
+// With velocities beside the flow.
+DrawnState draw_in_flow(const Scene& scene) {
   if (!scene.composition().has_width()) return {draw_needles(scene), {}};
   const std::string& packing = scene.initial.packing;
   if (packing == "insertion") {
@@ -202,6 +201,19 @@ DrawnState draw_state(const Scene& scene) {
     if (auto state = inserted(scene, tries_without_choice)) return std::move(*state);
   }
   refuse_lattice(scene);
+}
+
+}  // namespace
+
+DrawnState draw_state(const Scene& scene) {
+  require_valid(scene, drawable);
+  DrawnState out = draw_in_flow(scene);
+  if (!scene.shear) return out;
+  const Shear shear(scene.shear->rate, scene.needles.box, scene.shear->offset);
+  for (std::size_t i = 0; i < out.state.size(); ++i) {
+    out.state.velocity[i][0] += shear.rate() * out.state.position[i][1];
+  }
+  return out;
 }
 
 PlannedPlacement plan_placement(const Scene& scene) {

@@ -27,6 +27,7 @@ class EnergyShares {
       share.at_opening = quanta;
     };
     add_window(pairs_, of_pairs(tally));
+    add_window(flow_, tally.flow);
     sources_.resize(tally.by_source.size());
     for (std::size_t n = 0; n < sources_.size(); ++n) {
       add_window(sources_[n], tally.by_source[n].energy);
@@ -45,6 +46,10 @@ class EnergyShares {
   double pairs(const EnergyAccount& account, const Tally& tally) const {
     return to_double(at(pairs_, account, of_pairs(tally)));
   }
+  /// By uniform shear, in flights that are over and in collisions.
+  double flow(const EnergyAccount& account, const Tally& tally) const {
+    return to_double(at(flow_, account, tally.flow));
+  }
   double source(std::size_t n, const EnergyAccount& account, const Tally& tally) const {
     return n < tally.by_source.size() ? now(sources_, n, account, tally.by_source[n].energy) : 0;
   }
@@ -57,8 +62,9 @@ class EnergyShares {
 
   /// For a gas with so many sources and objects of them.
   template <class A>
-  void transfer(A& archive, std::size_t sources, std::size_t objects) {
+  void transfer(A& archive, std::size_t sources, std::size_t objects, bool flows) {
     pass(archive, pairs_);
+    if (flows) pass(archive, flow_);
     for (DoubleDouble* each : {&kicks_, &set_}) pass(archive, *each);
     if (sources == 0) return;
     sources_.resize(sources);
@@ -74,7 +80,7 @@ class EnergyShares {
   };
 
   static Quanta of_pairs(const Tally& tally) {
-    Quanta quanta = tally.energy;
+    Quanta quanta = tally.energy - tally.flow;
     for (const SourceTally& source : tally.by_source) quanta -= source.energy;
     return quanta;
   }
@@ -97,7 +103,7 @@ class EnergyShares {
     archive(share.at_opening);
   }
 
-  Share pairs_;
+  Share pairs_, flow_;
   std::vector<Share> sources_, objects_;
   DoubleDouble kicks_, set_;
 };

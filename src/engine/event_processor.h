@@ -110,6 +110,7 @@ class EventProcessor {
     kernels::ContactGeometry contact;
     typename PairEvents::Outcome outcome;
     double virial = 0;  ///< r12 . dp, where bodies have a distance [energy]
+    Vec3d between;      ///< r12, from the second centre to the first, with effects [L]
   };
   PairEvent pair_event(const Event& event);
   Happening happening_of(const Event& event, const PairEvent& of) const;
@@ -179,6 +180,14 @@ Shift EventProcessor<S, M>::replace_record(Needle i, Renew&& renew) {
   if (rollback_log) {
     rollback_log->replaced(i, gas_);
   }
+  if constexpr (M::has_effects) {
+    if (run_.effects.stress) {
+      const FlightCarries over = flight_carries(gas_, i, now());
+      const Shift wraps = predictor_.replace(i, renew);
+      run_.count(over, tally_);
+      return wraps;
+    }
+  }
   return predictor_.replace(i, renew);
 }
 
@@ -194,13 +203,17 @@ EventProcessor<S, M>::pair_event(const Event& event) {
   PairEvent out;
   out.contact = model_.contact().geometry(pair, elapsed);
   const kernels::ContactGeometry& contact = out.contact;
-  out.outcome = pair_events_.outcome(pair, a, b, now(), contact, event.side);
+  out.outcome = pair_events_.outcome(pair, a, b, event.shift, now(), contact, event.side);
   if constexpr (M::Law::has_distance) {
     // The centres are as far apart along the normal as both bodies reach from them: never below 0.
     // A contact without velocity has an impulse of -0.
     const double apart = pair.distance - contact.arm_first * dot(contact.u_first, contact.normal) +
                          contact.arm_second * dot(contact.u_second, contact.normal);
     out.virial = std::max(0.0, dot(out.outcome.impulse, contact.normal) * apart);
+    out.between = contact.normal * pair.distance;
+  }
+  if constexpr (M::has_effects) {
+    out.between += contact.u_second * contact.arm_second - contact.u_first * contact.arm_first;
   }
   return out;
 }
@@ -275,6 +288,9 @@ template <Search S, Model M>
     if (tally_.virial.empty()) tally_.virial.resize(1);
     tally_.virial.front().add(event.virial);
   }
+  if constexpr (M::has_effects) {
+    if (run_.effects.stress) run_.count_collision(event.between, event.outcome.impulse, tally_);
+  }
 }
 
 template <Search S, Model M>
@@ -287,7 +303,7 @@ NeedleAt EventProcessor<S, M>::needle_at(Needle i) const {
           .now = now(),
           .centre = present.r,
           .director = present.u,
-          .velocity = present.v,
+          .velocity = gas_.shear ? present.v - gas_.flow_at(present.r) : present.v,
           .angular_velocity = present.w};
 }
 
@@ -296,6 +312,8 @@ void EventProcessor<S, M>::happen(const Event& event) {
   const Needle i = event.owner;
   count_at_instant(i, i);
   const NeedleAt at = needle_at(i);
+  // Sources see needles from where they are in the flow.
+  const Vec3d flow = gas_.flow_at(at.centre);
   if (rollback_log) rollback_log->replaced(i, gas_);
   columns_before_.clear();
   gas_.columns.append(i, columns_before_);
@@ -319,7 +337,8 @@ void EventProcessor<S, M>::happen(const Event& event) {
     try {
       replace_record(i, [&] {
         return model_.renew(i, now(),
-                            {at.centre, outcome.velocity, at.director, outcome.angular_velocity});
+                            {at.centre, gas_.shear ? outcome.velocity + flow : outcome.velocity,
+                             at.director, outcome.angular_velocity});
       });
     } catch (const InvalidStateError&) {
       predictor_.put_back();

@@ -48,13 +48,20 @@ struct VelocitiesOfRecord {
   const Vec3d &v, &w;
 };
 
-// Calls sum(velocities_of) with a function that gives the present velocities of a record.
+// Calls sum(velocities_of) with a function that gives the present velocities of a record; in a
+// uniform flow, beside it.
 template <class Sum>
 auto with_velocities(const Gas& gas, Time now, const Sum& sum) {
   if (gas.slides) {
     return sum([&](const Record& a) {
       const kernels::BodyState present = gas.present(needle_of(gas, a), now);
       return Velocities{present.v, present.w};
+    });
+  }
+  if (gas.shear) {
+    return sum([&](const Record& a) {
+      const auto motion = gas.motion_from(a, now);
+      return Velocities{motion.velocity() - gas.flow_at(motion.centre()), a.flight.w};
     });
   }
   if (gas.falls) {
@@ -82,6 +89,24 @@ std::vector<SumsOfSquares> sums_of_squares(const Gas& gas, Time now, int threads
     out[species] = {v2, w2, height, pulled};
   }
   return out;
+}
+
+FlightCarries flight_carries(const Gas& gas, Needle i, Time now) {
+  const Record& record = gas.records[i];
+  const Vec3d c = record.flight.v - gas.flow_at(record.flight.r);
+  // The flow is faster where a needle gets to.
+  Vec3d gain = gas.gravity;
+  if (gas.shear) gain.x -= gas.shear->rate() * c.y;
+  return {gas.body(i).mass, carried(c, gain, gas.clock.difference(now, record.time))};
+}
+
+Tensor carried_in_flights(const Gas& gas, Time now, int threads) {
+  const auto sums = exact_sums(gas.records, threads, [&](const Record& record) {
+    const auto [mass, cc] = flight_carries(gas, needle_of(gas, record), now);
+    return std::array{mass * cc[0][0], mass * cc[0][1], mass * cc[0][2],
+                      mass * cc[1][1], mass * cc[1][2], mass * cc[2][2]};
+  });
+  return {{{sums[0], sums[1], sums[2]}, {sums[1], sums[3], sums[4]}, {sums[2], sums[4], sums[5]}}};
 }
 
 std::vector<SpeciesTotals> species_totals(const Gas& gas, const std::vector<SumsOfSquares>& sums) {

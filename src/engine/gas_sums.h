@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "needlework/totals.h"
+#include "src/engine/stress.h"
 #include "src/physics/gas.h"
 #include "src/scene/derived_numbers.h"
 
@@ -18,6 +19,16 @@ struct SumsOfSquares {
 
 /// Of all needles of each species. The threads share the work; see exact_sums.h.
 std::vector<SumsOfSquares> sums_of_squares(const Gas& gas, Time now, int threads);
+
+/// What a needle carries in its flight from its record to `now`: the integral of c c, c its
+/// velocity beside the flow.
+struct FlightCarries {
+  double mass;
+  Tensor cc;
+};
+FlightCarries flight_carries(const Gas& gas, Needle i, Time now);
+/// The sum of m c c t over the flights of all needles from their records to `now`. [energy time]
+Tensor carried_in_flights(const Gas& gas, Time now, int threads);
 
 std::vector<SpeciesTotals> species_totals(const Gas& gas, const std::vector<SumsOfSquares>& sums);
 /// The energy of all needles; where there is gravity along axes with walls, counted from those to

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "needlework/error.h"
+#include "src/composition/total_mass.h"
 #include "src/machine/stop_request.h"
 #include "src/physics/vectors.h"
 #include "src/scene/box_edges.h"
@@ -150,10 +151,28 @@ void require_inside(const Scene& scene, const Gas& gas) {
   }
 }
 
+// Momentum along y would carry needles to where the flow is faster, all the time.
+void require_steady_flow(const Gas& gas) {
+  if (!gas.shear) return;
+  constexpr double most = 0x1p-20;  // beyond what rounding to single precision does
+  double sum = 0, size = 0;
+  for (Needle i{0}; i < gas.size(); ++i) {
+    const double momentum = gas.body(i).mass * gas.records[i].flight.v.y;
+    sum += momentum;
+    size += std::abs(momentum);
+  }
+  if (std::abs(sum) <= most * size) return;
+  throw InputError(fmt::format(
+      "state: a total momentum of {:.6g} along y, across the flow of [shear]: expected 0 to within "
+      "rounding, as it would make that along x grow for ever; subtract {:.17g} from the velocities "
+      "along y",
+      sum, sum / total_mass(gas.composition)));
+}
+
 // That no two rods overlap but by rounding, and that spheres do not turn.
 void require_room_for_rods(const Gas& gas) {
   if (!gas.composition.has_width()) return;
-  RodGrid grid(gas.composition, gas.box, gas.size());
+  RodGrid grid(gas.composition, gas.box_at({}), gas.size());
   std::size_t pairs = 0;
   RodGrid::Overlap worst{};
   std::array<std::uint32_t, 2> worst_ids{};
@@ -195,6 +214,10 @@ void set_gravity(Gas& gas, const Scene& scene) {
               along_periodic(gas.gravity.z, 2)};
 }
 
+void set_shear(Gas& gas, const Scene& scene) {
+  if (scene.shear) gas.shear.emplace(scene.shear->rate, gas.box.edges(), scene.shear->offset);
+}
+
 Gas make_gas(const Scene& scene, const State& initial) {
   const std::size_t count = initial.size();
   check_size(initial.velocity.size(), count, "velocity");
@@ -205,6 +228,7 @@ Gas make_gas(const Scene& scene, const State& initial) {
   Gas gas;
   gas.box = Box(initial.box, scene.periodic());
   set_gravity(gas, scene);
+  set_shear(gas, scene);
   gas.set_composition(composition_of(scene, initial));
   const double length = gas.longest;
   const Room room(scene);
@@ -250,6 +274,7 @@ Gas make_gas(const Scene& scene, const State& initial) {
       refuse_vector(flight.u, "orientation", gas.ids[i], "one that is not 0");
   }
   set_species(gas, initial, order);
+  require_steady_flow(gas);
   require_inside(scene, gas);
   require_room_for_rods(gas);
   return gas;

@@ -23,10 +23,10 @@ class PairCollisions {
 
   /// What an event, now, makes of two needles that are in contact, on this side of each other
   /// before. Throws InvalidStateError, and changes nothing, if that cannot be resolved.
-  Outcome outcome(const typename M::Law::Pair&, Needle a, Needle b, Time now,
+  Outcome outcome(const typename M::Law::Pair&, Needle a, Needle b, const Shift& shift, Time now,
                   const kernels::ContactGeometry& contact, int side) const {
     const bool elastic = is_elastic(a, now) || is_elastic(b, now);
-    Outcome out = model_.collide(a, b, now, contact, side, elastic);
+    Outcome out = model_.collide(a, b, shift, now, contact, side, elastic);
     out.contact_time_rule = elastic;
     return out;
   }

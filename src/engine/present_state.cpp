@@ -16,7 +16,7 @@ namespace needlework {
 void copy_state(const Gas& gas, Time at, kernels::Isa isa, const std::vector<Needle>& order,
                 State& out) {
   using C = kernels::FlightColumns;
-  const Box& box = gas.box_at(at);
+  const Box box = gas.box_at(at);
   out.box = box.edges();
   out.periodic = box.periodic();
   out.resize(gas.size());
@@ -71,7 +71,7 @@ FreeNeedle needle_at(const Gas& gas, Time at, Id id) {
   // A director that has not moved keeps its bits.
   const Record& record = gas.records[i];
   if (record.time != at || record.is_sliding()) there.u = normalised(there.u);
-  const Box& box = gas.box_at(at);
+  const Box box = gas.box_at(at);
   const auto [place, boxes] = box.wrap(to_array(there.r));
   FreeNeedle out;
   out.position = place;
@@ -87,7 +87,7 @@ void require_images(const Gas& gas, Time at) {
   for (Needle i{0}; i < gas.size(); ++i) {
     const Vec3d centre =
         gas.slides ? gas.present(i, at).r : gas.motion_from(gas.records[i], at).centre();
-    add_boxes(gas.images[i], gas.box_at(at).wrap(to_array(centre)).boxes, gas.ids[i]);
+    add_boxes(gas, i, gas.box_at(at).wrap(to_array(centre)).boxes);
   }
 }
 

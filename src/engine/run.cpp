@@ -81,7 +81,9 @@ Effects effects_of(const Scene& scene) {
           .spheres = composition.has_width() && composition.are_spheres(),
           .sliding = scene.collisions.sliding,
           .kicks = scene.driving.kicks.has_value(),
-          .gravity = has_gravity(scene)};
+          .gravity = has_gravity(scene),
+          .shear = scene.shear.has_value(),
+          .stress = scene.shear.has_value()};
 }
 
 Run::Run(const Scene& scene)
@@ -139,7 +141,15 @@ Run::Run(const Scene& scene, Gas initial) : Run(scene) {
   open_window();
   // A body that meets no other one tells time by how long it takes through the box.
   const double span = windows.span();
-  gas.clock = Clock(std::isfinite(span) ? span : crossing_time(gas, sums_of_squares(gas, now, 1)));
+  gas.set_clock(
+      Clock(std::isfinite(span) ? span : crossing_time(gas, sums_of_squares(gas, now, 1))));
+  if (gas.shear && !gas.shear->is_followable()) {
+    throw InputError(fmt::format(
+        "{}: rows of boxes slide by more than 2^31 edges in {:.3g}, a mean free time: expected a "
+        "lower rate, or a longer edge along x",
+        place_of(scene, "shear.rate", fmt::to_string(scene.shear->rate)),
+        gas.clock.epoch_length()));
+  }
   for (const auto& source : sources) source->begin(gas);
   find_next_kick();
   for (Needle i{0}; i < gas.size(); ++i) {
@@ -150,14 +160,14 @@ Run::Run(const Scene& scene, Gas initial) : Run(scene) {
   }
   open_window();
   initial_energy = present_energy();
-  work_at_start = work_at_opening;
+  work_at_start = work_of_pull(gas, sums_now());
   // Done before search and calendar allocate their memory, which would add to that of sorting.
   if (sorted) reorder(gas, order_in_space(gas, now));
 }
 
 void Run::open_window(const std::vector<SumsOfSquares>& sums) {
   expect_energy();
-  work_at_opening = work_of_pull(gas, sums);
+  work_at_opening = work_beside_events(sums);
   energy_shares.settle(energy, tally);
   energy.open(energy_of(gas, sums), energy_of_motion(gas, sums), tally.energy);
   temperature_integral.note(gas.clock, now, translational_temperature(gas, sums));
@@ -208,8 +218,29 @@ void Run::set_contact_time() {
 
 double Run::energy_drift() const {
   const std::vector<SumsOfSquares> sums = sums_now();
-  return energy.drift(energy_of(gas, sums) - (work_of_pull(gas, sums) - work_at_opening),
+  return energy.drift(energy_of(gas, sums) - (work_beside_events(sums) - work_at_opening),
                       tally.energy);
+}
+
+double Run::work_beside_events(const std::vector<SumsOfSquares>& sums) const {
+  const double pull = work_of_pull(gas, sums);
+  if (!gas.shear) return pull;
+  return pull - gas.shear->rate() * carried_in_flights(gas, now, team.threads())[0][1];
+}
+
+StressSums Run::stress_sums() const {
+  StressSums out;
+  if (gas.size() == 0) return out;
+  out.kinetic = carried_in_flights(gas, now, team.threads());
+  if (tally.stress.empty()) return out;
+  const StressTally& over = tally.stress.front();
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      out.kinetic[i][j] += over.kinetic[std::min(i, j)][std::max(i, j)].value();
+      out.collisional[i][j] = over.collisional[i][j].value();
+    }
+  }
+  return out;
 }
 
 Totals Run::totals() const {
@@ -228,6 +259,11 @@ EnergyBudget Run::energy_budget() const {
   if (kicks) out.kicks = energy_shares.kicks() / needles;
   if (!(gas.pull == Vec3d{})) {
     out.gravity = (work_of_pull(gas, sums_now()) - work_at_start) / needles;
+  }
+  if (gas.shear) {
+    const double in_flights =
+        -gas.shear->rate() * carried_in_flights(gas, now, team.threads())[0][1];
+    out.shear = (energy_shares.flow(energy, tally) + in_flights) / needles;
   }
   for (std::size_t n = 0; n < sources.size(); ++n) {
     if (sources[n]->kind() == Happening::thermostat) {
@@ -293,6 +329,7 @@ ReplacedRecords Run::replace_velocities(const std::function<Vec3d(Needle)>& velo
     auto& entry = replaced.add(i, record);
     if (record.is_sliding()) sliding->let_go(i, record, now);
     const kernels::BodyState present = gas.present(i, now);
+    if (effects.stress) count(flight_carries(gas, i, now), tally);
     entry.wraps =
         renew_record(gas, i, now, {present.r, velocity(i), present.u, angular_velocity(i)},
                      gas.body(i).extent());
@@ -373,6 +410,8 @@ bool Run::nothing_can_happen() const {
 std::optional<Collisionless> Run::collisionless() const {
   // Events and kicks may change directions of flight.
   if (!sources.empty() || kicks) return std::nullopt;
+  // Images fly past each other.
+  if (gas.shear && gas.size() > 1) return std::nullopt;
   const auto reason = needlework::collisionless(gas.size(), [&](std::size_t i) {
     const kernels::Flight& flight = gas.records[i].flight;
     return kernels::BodyState{flight.r, flight.v, flight.u, flight.w};

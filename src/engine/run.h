@@ -100,6 +100,21 @@ class Run {
   Windows windows;
   EnergyAccount energy;
   EnergyShares energy_shares;
+  /// Counts what a needle has carried in a flight that is over now, and what two have handed over
+  /// in a collision, as tally.stress and tally.flow say.
+  void count(const FlightCarries& over, Tally& to) const {
+    if (to.stress.empty()) to.stress.resize(1);
+    to.stress.front().add_flight(over.mass, over.cc);
+    if (gas.shear) count_flow(over.mass * over.cc[0][1], to);
+  }
+  void count_collision(const Vec3d& between, const Vec3d& impulse, Tally& to) const {
+    if (to.stress.empty()) to.stress.resize(1);
+    to.stress.front().add_collision(between, impulse);
+    if (gas.shear) count_flow(between.y * impulse.x, to);
+  }
+  /// The pressure tensor of the run so far, times volume and time. [energy time]
+  StressSums stress_sums() const;
+
   /// By gravity along periodic axes, which events do not count; work_of_pull().
   double work_at_start = 0, work_at_opening = 0;
   TemperatureIntegral temperature_integral;
@@ -131,7 +146,14 @@ class Run {
                                      const std::function<Vec3d(Needle)>& angular_velocity);
   /// Energy of all needles by the account, where these are their sums now.
   double energy_by_account(const std::vector<SumsOfSquares>& sums) const {
-    return present_energy() + (work_of_pull(gas, sums) - work_at_opening);
+    return present_energy() + (work_beside_events(sums) - work_at_opening);
+  }
+  /// Of gravity along periodic axes, and of the flow in flights that are not over.
+  double work_beside_events(const std::vector<SumsOfSquares>& sums) const;
+  void count_flow(double carried, Tally& to) const {
+    const Quanta quanta = energy.in_quanta(-gas.shear->rate() * carried);
+    to.energy += quanta;
+    to.flow += quanta;
   }
   void count_strikes();
   /// Takes the parameters of the scene; without needles.

@@ -76,6 +76,7 @@ std::vector<double> physics_of(const Run& run, const Scene& scene) {
   const auto add = [&](const std::vector<double>& parameters) {
     out.insert(out.end(), parameters.begin(), parameters.end());
   };
+  if (run.gas.shear) add({run.gas.shear->velocity(), run.gas.shear->start()});
   if (run.gas.falls) add({run.gas.gravity.x, run.gas.gravity.y, run.gas.gravity.z});
   for (const auto& source : run.sources) add(source->parameters());
   if (run.kicks) add(run.kicks->parameters());
@@ -116,8 +117,10 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
   const kernels::Flight& f = record.flight;
   require_flight(f);
   require(record.species < gas.composition.size());
-  for (const std::int32_t boxes : gas.images[i])
-    require(boxes >= -most_boxes && boxes <= most_boxes);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::int32_t boxes = gas.images[i][axis];
+    require((gas.shear && axis == 0) || (boxes >= -most_boxes && boxes <= most_boxes));
+  }
   require(is_time(gas.clock, record.time) && record.time.epoch >= 0);
   record.renewal = renewal_time(gas, record, gas.body(i).extent());
   require(touches.size() <= most_touches);
@@ -210,7 +213,7 @@ void Run::require_consistent() const {
     const Boxes boxes = gas.box_at(now).wrap(to_array(centre)).boxes;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       constexpr double most = std::numeric_limits<std::int32_t>::max();
-      require(std::abs(gas.images[i][axis] + boxes[axis]) <= most);
+      require((gas.shear && axis == 0) || std::abs(gas.images[i][axis] + boxes[axis]) <= most);
     }
   }
   StopRequest::check();
@@ -229,7 +232,7 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
   archive(epoch_length);
   if (archive.reads()) {
     require(std::isfinite(epoch_length) && epoch_length > 0);
-    gas.clock = Clock(epoch_length);
+    gas.set_clock(Clock(epoch_length));
     require(gas.clock.epoch_length() == epoch_length);
   }
   for (const Needle i : by_id) {
@@ -266,7 +269,12 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
     require(kicks_done < std::uint64_t{1} << 53 && now <= next_kick());
     find_next_kick();
   }
-  energy_shares.transfer(archive, sources.size(), objects);
+  energy_shares.transfer(archive, sources.size(), objects, effects.shear);
+  if (effects.stress) {
+    archive(tally.stress, tally.flow);
+    require(tally.stress.size() <= 1);
+  }
+  if (effects.shear) archive(work_at_opening);
   if (!(gas.pull == Vec3d{})) archive(work_at_start, work_at_opening);
   temperature_integral.transfer(archive);
   archive.require(temperature_integral.is_sound());
@@ -292,6 +300,7 @@ Run::Run(const Scene& scene, const Checkpoint& saved) : Run(scene) {
   archive(physics, count);
   gas.box = box_of(scene);
   set_gravity(gas, scene);
+  set_shear(gas, scene);
   add_effects(scene);
   if (physics != physics_of(*this, scene)) {
     throw InputError(

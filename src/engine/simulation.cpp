@@ -44,7 +44,8 @@ kernels::Isa isa_of(const std::string& name) {
 // The parts of the loop that the scene asks for, for a gas of this density.
 LoopChoice choice_of(const Scene& scene, const Run& run, double density) {
   const int threads = std::max(1, scene.engine.threads.value_or(1));
-  return {.search = chosen_search(scene.engine.search, density, run.gas.composition),
+  return {.search = chosen_search(scene.engine.search, density, run.gas.composition,
+                                  scene.shear.has_value()),
           .calendar = chosen_calendar(scene.engine.queue, threads),
           .threads = threads,
           .threads_place = place_of(scene, "engine.threads", fmt::to_string(threads)),

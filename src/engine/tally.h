@@ -10,6 +10,7 @@
 #include "needlework/counters.h"
 #include "src/effects/sliding/sliding_tally.h"
 #include "src/engine/quanta.h"
+#include "src/engine/stress.h"
 #include "src/physics/clock.h"
 #include "src/trajectory/exact_total.h"
 #include "src/trajectory/trajectory_hash.h"
@@ -59,6 +60,9 @@ struct Tally {
 
   SlidingTally sliding;
 
+  std::vector<StressTally> stress;  ///< one, or none where it is not measured
+  Quanta flow;  ///< of `energy`, what the flow has put in, in flights that are over and collisions
+
   /// Counts one more of kind `index` out of so many.
   static void count(std::vector<std::uint64_t>& counts, std::size_t index, std::size_t kinds) {
     if (counts.empty()) counts.resize(kinds);
@@ -99,6 +103,8 @@ struct Tally {
     add(by_object, other.by_object);
     add(virial, other.virial);
     sliding.take(other.sliding);
+    add(stress, other.stress);
+    flow += other.flow;
     other = {};
   }
 
@@ -115,6 +121,7 @@ struct Tally {
     to.normal_impulse.take(from.normal_impulse);
   }
   static void add(ExactTotal& to, ExactTotal& from) { to.take(from); }
+  static void add(StressTally& to, StressTally& from) { to.take(from); }
   template <class Sum>
   static void add(std::vector<Sum>& to, std::vector<Sum>& from) {
     if (to.empty()) return to.swap(from);

@@ -19,10 +19,12 @@ struct Effects {
   bool sources = false;  ///< there are sources of events
   bool kicks = false;    ///< the velocities of all needles change at one instant, again and again
   bool gravity = false;  ///< needles fall freely between events
+  bool shear = false;    ///< rows of boxes slide
+  bool stress = false;   ///< the pressure tensor is measured
 
   bool any() const {
     return rough || contact_time || table || width || spheres || sliding || sources || kicks ||
-           gravity;
+           gravity || shear || stress;
   }
 };
 

@@ -46,7 +46,9 @@ namespace {
   const DoubleDouble elapsed = first_is_earlier ? pair.elapsed_first : pair.elapsed_second;
   const Vec3dd gain = to_double_double(gravity) * elapsed;
   const Vec3dd fall = gain * (elapsed * DoubleDouble(0.5));
-  pair.fall = first_is_earlier ? kernels::Fall{gain, fall} : kernels::Fall{-gain, -fall};
+  const kernels::Fall its =
+      first_is_earlier ? kernels::Fall{gain, fall} : kernels::Fall{-gain, -fall};
+  pair.fall = pair.fall ? kernels::Fall{pair.fall->velocity + its.velocity, its.place} : its;
 }
 
 [[noreturn, gnu::cold]] void refuse_boxes(Id id) {
@@ -79,7 +81,9 @@ kernels::Pair make_pair(const Gas& gas, Needle a, const Record& record_a, Needle
   if (record_b.time != start)
     pair.elapsed_second = gas.clock.exact_difference(start, record_b.time);
   if (!same(shift, Shift{})) {
-    pair.shift = gas.box_at(start).image<DoubleDouble>(shift).place;
+    const Image<DoubleDouble> image = gas.box_at(start).image<DoubleDouble>(shift);
+    pair.shift = image.place;
+    if (image.velocity.x != 0) pair.fall = {-to_double_double(image.velocity), {}};
   }
   pair.touch_within = gas.touch_tolerance();
   if (gas.falls) {
@@ -134,12 +138,13 @@ void part(Gas& gas, Needle first, Needle second, const Shift& shift, int side) {
   gas.add_touch(second, RecordedTouch::of(first_id, serials[0], -shift, touch));
 }
 
-Shift add_boxes(const Shift& image, const Boxes& boxes, Id id) {
+Shift add_boxes(const Gas& gas, Needle i, const Boxes& boxes) {
+  const Shift& image = gas.images[i];
   Shift out;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double sum = image[axis] + boxes[axis];
-    if (!(std::abs(sum) <= most_boxes)) refuse_boxes(id);
-    out[axis] = static_cast<std::int32_t>(sum);
+    if (!(std::abs(sum) <= most_boxes) && !(gas.shear && axis == 0)) refuse_boxes(gas.ids[i]);
+    out[axis] = static_cast<std::int32_t>(static_cast<std::int64_t>(sum));
   }
   return out;
 }
@@ -158,9 +163,9 @@ kernels::BodyState Gas::present(Id id, const Record& record, Time now) const {
 
 Shift renew_record(Gas& gas, Needle i, Time now, const kernels::BodyState& state, double extent) {
   Record& record = gas.records[i];
-  const Box& box = gas.box_at(now);
+  const Box box = gas.box_at(now);
   const auto [place, boxes] = box.wrap(to_array(state.r));
-  gas.images[i] = add_boxes(gas.images[i], boxes, gas.ids[i]);
+  gas.images[i] = add_boxes(gas, i, boxes);
   record.flight.r = vector_of(place);
   record.flight.u = normalised(state.u);
   record.flight.v = state.v - box.image(boxes).velocity;

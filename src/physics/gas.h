@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "kernels/contact_function.h"
@@ -28,6 +29,7 @@ struct Gas {
   std::unique_ptr<FurtherTouches> further_touches = std::make_unique<FurtherTouches>();
   Clock clock;
   Box box;                         ///< its edges, and which axes are periodic: those without walls
+  std::optional<Shear> shear;      ///< if rows of boxes slide
   Vec3d gravity{};                 ///< acceleration of all needles [L / time^2]
   bool falls = false;              ///< gravity is not 0
   Vec3d pull{};                    ///< gravity along periodic axes, where it has no potential
@@ -40,8 +42,20 @@ struct Gas {
   double margin = 0;
 
   std::size_t size() const { return records.size(); }
+  void set_clock(const Clock& its_clock) {
+    clock = its_clock;
+    if (shear) shear->set_epoch(clock.epoch_length());
+  }
   /// The box at a time. Images, and what is wrapped, are those of that time.
-  const Box& box_at(Time) const { return box; }
+  Box box_at(Time now) const {
+    return shear ? box.with_rows(shear->at(now.epoch, now.offset)) : box;
+  }
+  /// How fast the image of a needle flies past it. [L / time]
+  Vec3d image_velocity(const Shift& shift) const {
+    return {shear ? shear->velocity() * shift[1] : 0, 0, 0};
+  }
+  /// The velocity of the uniform flow at a place. [L / time]
+  Vec3d flow_at(const Vec3d& centre) const { return {shear ? shear->rate() * centre.y : 0, 0, 0}; }
   /// Number density [L^-3].
   double density() const { return static_cast<double>(size()) / box.volume(); }
 
@@ -108,8 +122,9 @@ inline Time renewal_time(const Gas& gas, const Record& record, double length) {
 /// 2^31 - 1, and until its record is renewed a needle crosses no more than 2^11.
 inline constexpr std::int32_t most_boxes = 0x7fffffff - (1 << 11);
 /// The number of boxes that a needle has crossed, with those just subtracted. Throws
-/// InvalidStateError beyond `most_boxes`.
-Shift add_boxes(const Shift& image, const Boxes& boxes, Id id);
+/// InvalidStateError beyond `most_boxes`, but for those along x where rows slide, which count
+/// modulo 2^32.
+Shift add_boxes(const Gas& gas, Needle i, const Boxes& boxes);
 
 /// Replaces the record of needle i, `extent` from end to end [L], by a state at `now`: the centre
 /// is wrapped into the box, the director is normalised, w is made normal to it, and touches are

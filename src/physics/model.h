@@ -24,8 +24,9 @@ namespace needlework {
 ///   `body` is what a needle is, and `half_length` and `reach` parts of it that searches ask for.
 ///   `pair` is the relative motion of two needles, a pure function of the two records and the
 ///     shift, and `contact` is when and how such a pair touches (contact.h).
-///   `collide` is the outcome of a contact, now, of needles that approach from `side`; `elastic`
-///     selects the rule for collisions within the contact time. It never adds energy.
+///   `collide` is the outcome of a contact, now, of needles that approach from `side`, the second
+///     with `shift` boxes added; `elastic` selects the rule for collisions within the contact time.
+///     It never adds energy.
 ///   `present` is the state to which a needle's motion has led at `now`, and `renew` replaces its
 ///     record by such a state with other velocities. It adds to the needle's entry in Gas::images
 ///     the number of boxes by which its centre was wrapped, returns that number, and changes
@@ -49,7 +50,7 @@ concept Model = requires(const M& model, Needle i, const Record& record, const S
   { model.reach(i) } -> std::same_as<double>;
   { model.contact() } -> std::same_as<const typename M::Law&>;
   { model.pair(i, record, i, record, shift) } -> std::same_as<typename M::Law::Pair>;
-  { model.collide(i, i, now, geometry, int{}, bool{}) } -> std::same_as<PairOutcome>;
+  { model.collide(i, i, shift, now, geometry, int{}, bool{}) } -> std::same_as<PairOutcome>;
   { model.present(i, now) } -> std::same_as<kernels::BodyState>;
   { model.renew(i, now, state) } -> std::same_as<Shift>;
 };

@@ -78,8 +78,8 @@ class NeedleModel {
     return out;
   }
   const Law& contact() const { return contact_; }
-  PairOutcome collide(Needle i, Needle j, Time now, const kernels::ContactGeometry& contact,
-                      int side, bool elastic) const {
+  PairOutcome collide(Needle i, Needle j, const Shift& shift, Time now,
+                      const kernels::ContactGeometry& contact, int side, bool elastic) const {
     const Record &a = gas_.records[i], &b = gas_.records[j];
     const kernels::Flight &first = a.flight, &second = b.flight;
     const auto outcome = [&](const Impact& impact) {
@@ -87,14 +87,21 @@ class NeedleModel {
                              gas_.motion_from(b, now).centre(), side);
     };
     if constexpr (has_effects) {
-      const Vec3d v_first = velocity(a, now), v_second = velocity(b, now);
+      // The image in contact flies past the needle where rows slide.
+      const Vec3d past = gas_.image_velocity(shift);
+      const Vec3d v_first = velocity(a, now), its_velocity = velocity(b, now),
+                  v_second = gas_.shear ? its_velocity + past : its_velocity;
       const CollidingPair both{v_first, first.w, v_second, second.w,
                                body(i), body(j), contact,  side};
-      if (elastic) return outcome(needlework::collide<Law::surface>(both, Restitution{}));
+      const auto in_frames_of_records = [&](Impact impact) {
+        if (gas_.shear) impact.v_second = impact.v_second - past;
+        return outcome(impact);
+      };
+      if (elastic) return in_frames_of_records(needlework::collide<Law::surface>(both, {}));
       const Restitution& rule = restitution(a, b);
       if (Law::may_be_rough && rule.is_rough())
-        return outcome(needlework::collide<Surface::rough>(both, rule));
-      return outcome(needlework::collide<Law::surface>(both, rule));
+        return in_frames_of_records(needlework::collide<Surface::rough>(both, rule));
+      return in_frames_of_records(needlework::collide<Law::surface>(both, rule));
     } else {
       const CollidingPair both{first.v, first.w, second.v, second.w,
                                body(i), body(j), contact,  side};

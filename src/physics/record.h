@@ -52,8 +52,10 @@ struct RecordedTouch {
     return out;
   }
   bool is_with(Id other, std::uint32_t other_serial, const Shift& other_shift) const {
-    return partner == other && partner_serial == other_serial && shift[0] == other_shift[0] &&
-           shift[1] == other_shift[1] && shift[2] == other_shift[2];
+    // Where rows slide, numbers along x are of any size, and their last 16 bits tell images apart.
+    return partner == other && partner_serial == other_serial &&
+           shift[0] == static_cast<std::int16_t>(other_shift[0]) && shift[1] == other_shift[1] &&
+           shift[2] == other_shift[2];
   }
   kernels::Touch touch() const {
     return {.touching = true, .collided = kind != TouchKind::near, .side = side, .gap = gap};

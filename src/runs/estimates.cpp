@@ -47,7 +47,8 @@ double estimated_seconds_per_collision(const Scene& scene, double density) {
   // matters from n L^3 = 100 on. On the long way to the next
   // collision of a dilute gas a needle leaves cells, whose side is about L or takes in some
   // needles.
-  const std::string search = chosen_search(scene.engine.search, density, scene.composition());
+  const std::string search =
+      chosen_search(scene.engine.search, density, scene.composition(), scene.shear.has_value());
   const double count = static_cast<double>(scene.needles.count);
   if (density == 0) return 0;  // nothing to collide with
   if (search == "all-pairs") return 40e-6 + 0.042e-6 * count;
@@ -60,7 +61,8 @@ double estimated_seconds_per_collision(const Scene& scene, double density) {
 
 double estimated_setup_seconds(const Scene& scene, double density) {
   // Fits to the same scenes, and to 1e6 needles in a box of 2.01; without AVX-512 on a slower CPU.
-  const std::string search = chosen_search(scene.engine.search, density, scene.composition());
+  const std::string search =
+      chosen_search(scene.engine.search, density, scene.composition(), scene.shear.has_value());
   const double count = static_cast<double>(scene.needles.count);
   if (search == "all-pairs") return count * (20e-6 + 0.035e-6 * count);
   if (search == "linked-lists") return count * (1.5e-6 + 2.3e-6 * density);

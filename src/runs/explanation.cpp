@@ -141,7 +141,8 @@ Explanation::Explanation(const LoadedScene& loaded)
                         collisions * estimated_seconds_per_collision(scene, density)
                   : undefined),
       memory(estimated_memory(scene)),
-      search(chosen_search(scene.engine.search, density, scene.composition())),
+      search(chosen_search(scene.engine.search, density, scene.composition(),
+                           scene.shear.has_value())),
       calendar(chosen_calendar(scene.engine.queue, scene.engine.threads.value_or(1))),
       accuracy(accuracy_name(scene.engine)),
       isa(resolved_isa(scene.engine)),

@@ -213,7 +213,7 @@ Insertion insert_rods(const Scene& scene, std::uint64_t most_tries, double most_
   Insertion out{without_velocities(scene, composition.count()), 0, 0};
   const std::vector<SpeciesIndex> species = composition.in_order_of_id();
   const std::array<Gap, 3> gaps = gaps_of(scene);
-  RodGrid grid(composition, box_of(scene), species.size());
+  RodGrid grid(composition, box_at_start(scene), species.size());
   for (const std::size_t id : largest_first(composition, species)) {
     NeedleRandom random(scene.needles.seed, id);
     bool placed = false;

@@ -23,6 +23,10 @@ void transfer(Archive& archive, Scene::Wall& wall) {
   visit_wall(wall, [&](std::string_view, std::string_view, auto& member) { archive(member); });
 }
 
+void transfer(Archive& archive, Scene::Shear& shear) {
+  visit_shear(shear, [&](std::string_view, std::string_view, auto& member) { archive(member); });
+}
+
 void transfer(Archive& archive, Scene::Kicks& kicks) {
   visit_kicks(kicks, [&](std::string_view, std::string_view, auto& member) { archive(member); });
 }

@@ -54,6 +54,14 @@ void visit_wall(Wall& wall, Visit&& visit) {
   visit("walls", "motion", motion);
 }
 
+/// The same for each member of Scene::Shear.
+template <class Shear, class Visit>
+void visit_shear(Shear& shear, Visit&& visit) {
+  auto& [rate, offset] = shear;
+  visit("shear", "rate", rate);
+  visit("shear", "offset", offset);
+}
+
 /// The same for each member of Scene::Kicks.
 template <class Kicks, class Visit>
 void visit_kicks(Kicks& kicks, Visit&& visit) {
@@ -76,8 +84,8 @@ void visit_andersen(Andersen& andersen, Visit&& visit) {
 /// `threads` was chosen.
 template <class AnyScene, class Visit>
 void visit_members(AnyScene& scene, Visit&& visit) {
-  auto& [title, needles, species, pairs, initial, collisions, walls, forces, driving, engine, until,
-         output, text, places] = scene;
+  auto& [title, needles, species, pairs, initial, collisions, walls, forces, shear, driving, engine,
+         until, output, text, places] = scene;
   visit("", "title", title);
   visit("species", "", species);
   visit("pairs", "", pairs);
@@ -111,6 +119,7 @@ void visit_members(AnyScene& scene, Visit&& visit) {
     auto& [gravity] = forces;
     visit("forces", "gravity", gravity);
   }
+  visit("shear", "", shear);
   {
     auto& [kicks, andersen] = driving;
     visit("driving", "kicks", kicks);

@@ -68,6 +68,9 @@ class Collected {
   void operator()(std::string_view, std::string_view, const Scene::WallMotion& motion) {
     visit_motion(motion, *this);
   }
+  void operator()(std::string_view, std::string_view, const Scene::Shear& shear) {
+    visit_shear(shear, *this);
+  }
   void operator()(std::string_view, std::string_view, const Scene::Kicks& kicks) {
     visit_kicks(kicks, *this);
   }

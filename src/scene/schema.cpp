@@ -35,8 +35,9 @@ struct Schema {
   // a scene may say.
   std::vector<SceneSection> sections = {title(),           needles_section(),    species_section(),
                                         initial_section(), collisions_section(), pairs_section(),
-                                        walls_section(),   forces_section(),     driving_section(),
-                                        engine_section(),  until_section(),      output_section()};
+                                        walls_section(),   forces_section(),     shear_section(),
+                                        driving_section(), engine_section(),     until_section(),
+                                        output_section()};
   std::vector<std::string_view> names;
   std::vector<SceneKey> keys;
   std::vector<SceneRule> rules;

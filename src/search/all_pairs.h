@@ -30,13 +30,14 @@ class AllPairs {
   void find(const SearchQuery& query, const Lengths auto& lengths, Visit&& visit) const {
     const Needle i = query.needle;
     BoundingFilter filter(gas_, counters_, query, lengths);
+    const Box box = gas_.box_at(query.now);
     for (Needle j{0}; j < gas_.size(); ++j) {
       if (j == i) continue;
       const auto other = gas_.motion_from(gas_.records[j], query.now);
       const Vec3d r = filter.centre() - other.centre(), v = filter.velocity() - other.velocity();
       const double reach = lengths.reach(i) + lengths.reach(j);
-      gas_.box_at(query.now).for_each_image_near(
-          r, v, reach, filter.ahead(), [&](const Shift& shift) { filter(j, shift, visit); });
+      box.for_each_image_near(r, v, reach, filter.ahead(),
+                              [&](const Shift& shift) { filter(j, shift, visit); });
     }
   }
 

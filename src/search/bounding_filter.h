@@ -19,6 +19,7 @@ class BoundingFilter {
         counters_(counters),
         lengths_(lengths),
         now_(query.now),
+        box_(gas.box_at(now_)),
         ahead_(query.ahead),
         reach_(lengths.reach(query.needle)) {
     const auto motion = gas.motion_from(gas.records[query.needle], now_);
@@ -30,7 +31,7 @@ class BoundingFilter {
   void operator()(Needle j, const Shift& shift, Visit&& visit) {
     ++counters_.candidates;
     const auto other = gas_.motion_from(gas_.records[j], now_);
-    const Image<double> image = gas_.box_at(now_).image(shift);
+    const Image<double> image = box_.image(shift);
     const Vec3d r = (centre_ - other.centre()) - image.place;
     const Vec3d v = (v_ - other.velocity()) - image.velocity;
     const double reach = reach_ + lengths_.reach(j);
@@ -50,6 +51,7 @@ class BoundingFilter {
   Counters& counters_;
   const L& lengths_;
   Time now_;
+  Box box_;  ///< now
   double ahead_, reach_;
   Vec3d centre_, v_;
 };

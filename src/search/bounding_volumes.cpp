@@ -87,6 +87,9 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
     radius = std::max(radius, made.radius);
     drift = std::max(drift, std::max(made.overlap, made.radius) + rounding);
   }
+  if (!gas.shear) return;
+  rows = std::make_unique<SlidingRows>(gas, grid);
+  wraps.resize(gas.size());
 }
 
 bool BoundingVolumes::place(Needle i, Time now, double half_length) {
@@ -98,7 +101,17 @@ template <bool falls>
 inline bool BoundingVolumes::place_one(Needle i, Time now, double half_length) {
   const Record& record = gas.records[i];
   const double elapsed = gas.clock.difference(now, record.time);
-  const MotionFrom<FreeFlight> motion{frame.flight_of<falls>(record), elapsed};
+  if (!rows) return place_flight<falls>(i, record.flight, elapsed, now, half_length);
+  rows->set_now(now);
+  const SlidingRows::Seen seen = rows->see(record, elapsed);
+  wraps[i] = seen.boxes;
+  return place_flight<falls>(i, seen.flight, elapsed, now, half_length);
+}
+
+template <bool falls>
+inline bool BoundingVolumes::place_flight(Needle i, const kernels::Flight& flight, double elapsed,
+                                          Time now, double half_length) {
+  const MotionFrom<FreeFlight> motion{frame.flight_of<falls>(flight), elapsed};
   const Vec3d centre = motion.centre();
   const MotionFrame::Path path = frame.path_of<falls>(centre, motion.velocity(), now);
   ClassCells& own = class_of(i);
@@ -125,25 +138,46 @@ void BoundingVolumes::renumber(const std::vector<Needle>& ranks) {
   const std::vector<Needle> order = ranks_of(ranks);
   permute(places, order);
   permute(motions, order);
+  if (rows) permute(wraps, order);
   distances.renumber(order);
   for (const auto& each : classes) each->cells.renumber(ranks);
 }
 
 // Chooses the unit of time and the origin of times in blocks and motions.
 void BoundingVolumes::begin_again(Time now) {
+  begin_frame(now);
+  if (rows) rows->begin_again(now);
+}
+
+void BoundingVolumes::begin_frame(Time now) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& each : classes) least = std::min(least, each->most_fallen);
   frame.begin(now, least);
 }
 
+// Of needles that stay in their cells.
+void BoundingVolumes::carry_rows(Time now) {
+  const std::vector<std::int32_t> boxes = rows->carry(now);
+  for (Needle i{0}; i < gas.size(); ++i) {
+    const std::int32_t row = grid.wrap(places[i].cell[1], 1);
+    wraps[i] = wraps[i] + Shift{boxes[static_cast<std::size_t>(row)], 0, 0};
+  }
+}
+
 // Does the same for needles that stay where they are, before times grow so long that floats lose
 // digits of them.
 void BoundingVolumes::rebase(Time now, int threads) {
-  begin_again(now);
+  begin_frame(now);
+  if (rows) carry_rows(now);
   kernels::in_parallel(gas.size(), threads, [&](std::size_t begin, std::size_t end) {
     for (Needle i(begin); i < end; ++i) {
       if (!places[i].is_entered()) continue;
-      const auto present = gas.motion_from(gas.records[i], now);
+      const Record& record = gas.records[i];
+      const double elapsed = gas.clock.difference(now, record.time);
+      const kernels::Flight flight =
+          rows ? rows->see_from(places[i].cell[1], wraps[i], record, elapsed) : record.flight;
+      const MotionFrom<FreeFlight> present{FreeFlight(flight, gas.falls ? &gas.gravity : nullptr),
+                                           elapsed};
       const MotionFrame::Path path = frame.path_of(present.centre(), present.velocity(), now);
       set_motion(i, present.start, path, now);
       ClassCells& own = class_of(i);
@@ -190,6 +224,11 @@ bool BoundingVolumes::enter(ClassCells& own, Needle i, const Cell& cell) {
   place.cell = cell;
   place.slot = own.cells.enter(index, i);
   return entered;
+}
+
+Shift BoundingVolumes::boxes_between_rows(Needle i, Needle j, const Cell& seen, Shift shift) const {
+  shift[0] = (shift + Shift{rows->beside(places[i].cell[1], seen[1]).boxes, 0, 0})[0];
+  return shift + wraps[i] - wraps[j];
 }
 
 // What contains the needle's cell.

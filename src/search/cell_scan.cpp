@@ -27,6 +27,7 @@ kernels::Scan CellScan::look(Needle i, double ahead) {
     first.touching = volumes_.distances.largest(i, own.widest_half);
     set_seeker(volumes_, own, i, ahead, first.seeker);
     Own::read_entry(own, volumes_.places[i].slot, first.seeker);
+    if (volumes_.rows) return look_into_rows<Own>(ahead);
     return looks_.size() == 1 ? look_into_one_class<Own>(ahead) : look_into_classes<Own>(i, ahead);
   });
 }
@@ -89,14 +90,66 @@ template <class Own>
     room += look.views * look.cells->cells.longest_chain() * kernels::block_size;
   }
   found_.make_room(room);
-  kernels::Scan all{};
-  for (Look& look : looks_) {
-    const kernels::Found found = found_.from(all.found);
-    const kernels::Scan seen = with_volume(look.cells->kind, [&]<class There>(There) {
+  return scan_all([&](Look& look, const kernels::Found& found) {
+    return with_volume(look.cells->kind, [&]<class There>(There) {
       return &look == &first
                  ? Own::scan(kernels_, surroundings(look), look, found)
                  : scan_between(Own{}, There{}, kernels_, surroundings(look), look, found);
     });
+  });
+}
+
+// From the frame of each row; see sliding_rows.h.
+template <class Own>
+[[gnu::noinline]] kernels::Scan CellScan::look_into_rows(double ahead) {
+  looks_.resize(1);
+  const ClassCells& own = *looks_.front().cells;
+  const double unit = 1 / volumes_.frame.per_length, side = own.grid.sides()[0];
+  Look first = looks_.front();
+  set_reach<Own, Own>(own, 0, first);
+  Own::set_box(volumes_.frame, ahead, first);
+  // The rows within its reach, its own one first.
+  const auto [low, high] = views_.layers_within(first, 1, volumes_.frame.per_length);
+  const std::int32_t row = first.origin[1];
+  looks_.clear();
+  looks_.push_back(first);
+  looks_.front().row = row;
+  for (std::int32_t other = low; other <= high; ++other) {
+    if (other == row) continue;
+    Look& look = looks_.emplace_back(first);
+    look.row = other;
+    const SlidingRows::Beside beside = volumes_.rows->beside(row, other);
+    kernels::Seeker& seeker = look.seeker;
+    // Counted from the cell of the other row that it is in.
+    const double x = static_cast<double>(seeker.motion.r[0]) * unit - beside.place;
+    const auto cells = static_cast<std::int32_t>(std::floor(x / side));
+    look.origin[0] += cells;
+    seeker.motion.r[0] = static_cast<float>((x - cells * side) * volumes_.frame.per_length);
+    seeker.motion.v[0] -=
+        static_cast<float>(beside.velocity * volumes_.frame.per_length / volumes_.frame.per_time);
+    seeker.margin = 2 * own.margin;
+    set_reach<Own, Own>(own, 0, look);
+    Own::set_box(volumes_.frame, ahead, look);
+  }
+  std::size_t room = 0;
+  for (Look& look : looks_) {
+    views_.add_in_row<Own>(look, volumes_.frame.per_length);
+    room += look.views * own.cells.longest_chain() * kernels::block_size;
+  }
+  found_.make_room(room);
+  return scan_all([&](Look& look, const kernels::Found& found) {
+    return Own::scan(kernels_, surroundings(look), look, found);
+  });
+}
+
+// All looks, one after the other.
+template <class Scanned>
+inline kernels::Scan CellScan::scan_all(const Scanned& scan) {
+  Look& first = looks_.front();
+  kernels::Scan all{};
+  for (Look& look : looks_) {
+    const kernels::Found found = found_.from(all.found);
+    const kernels::Scan seen = scan(look, found);
     // Kernels count views from the first of this look.
     for (std::size_t k = 0; k < seen.found; ++k) {
       found.cell[k] += static_cast<std::uint32_t>(look.first_view);

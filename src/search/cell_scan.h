@@ -48,6 +48,10 @@ class CellScan {
   kernels::Scan look_into_one_class(double ahead);
   template <class Own>
   kernels::Scan look_into_classes(Needle i, double ahead);
+  template <class Own>
+  kernels::Scan look_into_rows(double ahead);
+  template <class Scanned>
+  kernels::Scan scan_all(const Scanned& scan);
   template <class Own, class There>
   void set_reach(const ClassCells& own, float bend, Look& look) const;
   kernels::Surroundings surroundings(const Look& look) const;

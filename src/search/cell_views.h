@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "src/memory/prefetch.h"
@@ -101,6 +102,22 @@ class CellViews {
   void add_around_box(Look& look, double per_length) {
     const Layers near = layers_near(look, per_length);
     add_around_box<There>(look, near);
+  }
+  /// The same, of its row alone.
+  template <class There>
+  void add_in_row(Look& look, double per_length) {
+    Layers near = layers_near(look, per_length);
+    const auto is_below = [&](const CellGrid::AxisCell& y) { return y.cell < look.row; };
+    const auto first = std::find_if_not(near.along[1].begin(), near.along[1].end(), is_below);
+    const bool is_there = first != near.along[1].end() && first->cell == look.row;
+    near.along[1] = {first, is_there ? std::size_t{1} : std::size_t{0}};
+    add_around_box<There>(look, near);
+  }
+  /// The numbers of the first and the last layer of cells along an axis that are within its reach.
+  std::pair<std::int32_t, std::int32_t> layers_within(const Look& look, int axis,
+                                                      double per_length) {
+    const Layers near = layers_near(look, per_length);
+    return {near[axis].front().cell, near[axis].back().cell};
   }
   /// The same, where there are many, within reach of the segment in the box.
   template <class There>

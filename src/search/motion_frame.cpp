@@ -13,7 +13,7 @@ constexpr double fallen_of_side = 0.125;
 void MotionFrame::begin(Time now, double most_fallen) {
   double sum = 0;
   for (const Record& record : gas.records) {
-    const Vec3d v = record.flight.v * per_length;
+    const Vec3d v = (record.flight.v - gas.flow_at(record.flight.r)) * per_length;
     sum += dot(v, v) + 0.25 * record.flight.omega * record.flight.omega;
   }
   const double speed = std::sqrt(sum / static_cast<double>(gas.size()));

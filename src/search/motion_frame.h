@@ -46,8 +46,8 @@ struct MotionFrame {
   // With `falls` as a constant, the compiler knows where there is no gravity.
 
   template <bool falls>
-  FreeFlight flight_of(const Record& record) const {
-    return FreeFlight(record.flight, falls ? &gas.gravity : nullptr);
+  FreeFlight flight_of(const kernels::Flight& flight) const {
+    return FreeFlight(flight, falls ? &gas.gravity : nullptr);
   }
   /// The motion in this frame of what is here now with this velocity.
   Path path_of(const Vec3d& centre, const Vec3d& velocity, Time now) const {

@@ -87,7 +87,7 @@ inline std::span<const Candidate> NearSearch::Parts::find(Source& source, Needle
   }
   // The boxes to be added to the centre of a needle found in this view.
   const auto shift_of = [&](Needle j, std::uint32_t view) {
-    return volumes.class_of(j).grid.boxes_between(source.cell_seen(view), volumes.places[j].cell);
+    return volumes.boxes_between(i, j, source.cell_seen(view));
   };
   candidates.clear();
   if (filters) {

@@ -110,7 +110,7 @@ double crowding_of_class(const Gas& gas, const std::vector<SizeClass>& classes, 
 std::vector<SizeClass> size_classes(const Gas& gas, const SearchSetup& setup, BoundingVolume kind) {
   const double density = setup.density.value_or(reduced_density(gas));
   std::vector<SizeClass> out;
-  if (gas.composition.is_mixture() && !setup.cell_side && !setup.capsule_radius)
+  if (gas.composition.is_mixture() && !setup.cell_side && !setup.capsule_radius && !gas.shear)
     out = grouped_by_length(gas);
   const double by_mean = density_by_mean(density, gas.composition),
                crowd = crowding(density, gas.composition),

@@ -19,7 +19,7 @@ class SlidingPairEvents {
 
   SlidingPairEvents(Run& run, const M& model) : run_(run), model_(model) {}
 
-  Outcome outcome(const SlidingPair& pair, Needle a, Needle b, Time now,
+  Outcome outcome(const SlidingPair& pair, Needle a, Needle b, const Shift&, Time now,
                   const kernels::ContactGeometry& contact, int side) const {
     const Gas& gas = run_.gas;
     const Outcome out = run_.sliding->outcome(

@@ -13,6 +13,7 @@ SceneSection collisions_section();
 SceneSection pairs_section();
 SceneSection walls_section();
 SceneSection forces_section();
+SceneSection shear_section();
 SceneSection driving_section();
 SceneSection engine_section();
 SceneSection until_section();
