@@ -427,6 +427,72 @@ typedef struct needlework_contacts {
 NEEDLEWORK_API int needlework_get_contacts(needlework_simulation* simulation,
                                            needlework_contacts* contacts);
 
+/* ---- Pressure tensor ------------------------------------------------------------------------- */
+
+/* Pressure tensor since the start, a mean over the run. The first letter of an index is the axis
+ * along which momentum goes, the second its component. */
+typedef struct needlework_pressure_tensor {
+  /* numbers of pressure_tensor */
+  /* P_xx by flights: n <m c_x c_x> [energy per volume] */
+  double kinetic_xx;
+  /* P_xy by flights [energy per volume] */
+  double kinetic_xy;
+  /* P_xz by flights [energy per volume] */
+  double kinetic_xz;
+  /* P_yx by flights, momentum along x that goes along y [energy per volume] */
+  double kinetic_yx;
+  /* P_yy by flights [energy per volume] */
+  double kinetic_yy;
+  /* P_yz by flights [energy per volume] */
+  double kinetic_yz;
+  /* P_zx by flights [energy per volume] */
+  double kinetic_zx;
+  /* P_zy by flights [energy per volume] */
+  double kinetic_zy;
+  /* P_zz by flights [energy per volume] */
+  double kinetic_zz;
+  /* P_xx by collisions: r12_x dp_x between centres [energy per volume] */
+  double collisional_xx;
+  /* P_xy by collisions [energy per volume] */
+  double collisional_xy;
+  /* P_xz by collisions [energy per volume] */
+  double collisional_xz;
+  /* P_yx by collisions, r12_y dp_x [energy per volume] */
+  double collisional_yx;
+  /* P_yy by collisions [energy per volume] */
+  double collisional_yy;
+  /* P_yz by collisions [energy per volume] */
+  double collisional_yz;
+  /* P_zx by collisions [energy per volume] */
+  double collisional_zx;
+  /* P_zy by collisions [energy per volume] */
+  double collisional_zy;
+  /* P_zz by collisions [energy per volume] */
+  double collisional_zz;
+  /* -P_yx [energy per volume] */
+  double shear_stress;
+  /* Its standard error [energy per volume] */
+  double shear_stress_error;
+  /* -P_yx over the rate; NaN without shear [energy times time per volume] */
+  double viscosity;
+  /* Its standard error [energy times time per volume] */
+  double viscosity_error;
+  /* P_xx - P_yy [energy per volume] */
+  double first_normal_difference;
+  /* Its standard error [energy per volume] */
+  double first_normal_difference_error;
+  /* P_yy - P_zz [energy per volume] */
+  double second_normal_difference;
+  /* Its standard error [energy per volume] */
+  double second_normal_difference_error;
+  /* end of numbers */
+} needlework_pressure_tensor;
+
+/* Copies the pressure tensor; all NaN unless the scene has [shear] or asks for the observable
+ * pressure_tensor. [handle] */
+NEEDLEWORK_API int needlework_get_pressure_tensor(needlework_simulation* simulation,
+                                                  needlework_pressure_tensor* tensor);
+
 /* ---- Data of your own ------------------------------------------------------------------------ */
 
 enum needlework_data_kind { NEEDLEWORK_DATA_BYTES = 0, NEEDLEWORK_DATA_JSON = 1 };
@@ -481,6 +547,8 @@ typedef struct needlework_energy_budget {
   double velocities_set;
   /* Energy by gravity along periodic axes [energy] */
   double gravity;
+  /* Energy by uniform shear [energy] */
+  double shear;
   /* end of numbers */
 } needlework_energy_budget;
 

@@ -117,6 +117,37 @@ module needlework
     ! end of numbers
   end type
 
+  type, bind(c) :: needlework_pressure_tensor
+    ! numbers of pressure_tensor
+    real(c_double) :: kinetic_xx
+    real(c_double) :: kinetic_xy
+    real(c_double) :: kinetic_xz
+    real(c_double) :: kinetic_yx
+    real(c_double) :: kinetic_yy
+    real(c_double) :: kinetic_yz
+    real(c_double) :: kinetic_zx
+    real(c_double) :: kinetic_zy
+    real(c_double) :: kinetic_zz
+    real(c_double) :: collisional_xx
+    real(c_double) :: collisional_xy
+    real(c_double) :: collisional_xz
+    real(c_double) :: collisional_yx
+    real(c_double) :: collisional_yy
+    real(c_double) :: collisional_yz
+    real(c_double) :: collisional_zx
+    real(c_double) :: collisional_zy
+    real(c_double) :: collisional_zz
+    real(c_double) :: shear_stress
+    real(c_double) :: shear_stress_error
+    real(c_double) :: viscosity
+    real(c_double) :: viscosity_error
+    real(c_double) :: first_normal_difference
+    real(c_double) :: first_normal_difference_error
+    real(c_double) :: second_normal_difference
+    real(c_double) :: second_normal_difference_error
+    ! end of numbers
+  end type
+
   type, bind(c) :: needlework_contacts
     ! numbers of contacts
     integer(c_int64_t) :: entered
@@ -137,6 +168,7 @@ module needlework
     real(c_double) :: kicks
     real(c_double) :: velocities_set
     real(c_double) :: gravity
+    real(c_double) :: shear
     ! end of numbers
   end type
 
@@ -297,6 +329,12 @@ module needlework
       import :: c_ptr, c_int, needlework_contacts
       type(c_ptr), value :: simulation
       type(needlework_contacts), intent(out) :: contacts
+    end function
+
+    integer(c_int) function needlework_get_pressure_tensor(simulation, tensor) bind(c)
+      import :: c_ptr, c_int, needlework_pressure_tensor
+      type(c_ptr), value :: simulation
+      type(needlework_pressure_tensor), intent(out) :: tensor
     end function
 
     integer(c_int) function needlework_get_energy_budget(simulation, budget) bind(c)

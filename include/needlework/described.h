@@ -18,6 +18,7 @@ inline constexpr const char* angular_speed = "radians per time";
 inline constexpr const char* energy = "energy";
 inline constexpr const char* angle = "radians";
 inline constexpr const char* pressure = "energy per volume";
+inline constexpr const char* viscosity = "energy times time per volume";
 inline constexpr const char* momentum = "mass times length per time";
 inline constexpr const char* virial = "mass times length squared per time";
 }  // namespace unit

@@ -122,6 +122,12 @@ class Simulation {
   /// a third of what comes to it in a unit of time. 0 for needles. [m L^2 / time]
   double virial() const;
 
+  /// The pressure tensor since the start of the run, where the scene has [shear] or asks for the
+  /// observable pressure_tensor: its mean over the run with standard errors, and the sums from
+  /// which means over any part of the run follow.
+  std::optional<StressTotals> stress() const;
+  std::optional<StressSums> stress_sums() const;
+
   /// Integral of Totals::t_tr over the time since the start, from its values at the ends of windows
   /// of about a mean free time and now. [energy time]
   double t_tr_integral() const;

@@ -117,6 +117,95 @@ struct SlidingContacts {
   }
 };
 
+/// Nine numbers by [transport][momentum]: the axis along which momentum goes, and its component.
+using Tensor = std::array<std::array<double, 3>, 3>;
+
+/// The pressure tensor times volume and time, summed since the start of a run; velocities count
+/// from the flow of [shear]. [energy time]
+struct StressSums {
+  Tensor kinetic{};      ///< sum of m c c t over flights
+  Tensor collisional{};  ///< sum of r12 dp over collisions, r12 between the centres
+};
+
+/// The pressure tensor, as a mean over a time, and what follows from it.
+struct StressTotals {
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+  Tensor kinetic{{{none, none, none}, {none, none, none}, {none, none, none}}};
+  Tensor collisional = kinetic;
+  /// Each with a standard error by the method of batch means.
+  double shear_stress = none, shear_stress_error = none;
+  double viscosity = none, viscosity_error = none;
+  double first_normal_difference = none, first_normal_difference_error = none;
+  double second_normal_difference = none, second_normal_difference_error = none;
+
+  /// The mean of what has come to sums in this time.
+  static StressTotals between(const StressSums& from, const StressSums& to, double time,
+                              double volume, const std::array<bool, 3>& periodic, double rate) {
+    StressTotals out;
+    if (!(time > 0)) return out;
+    const double share = 1 / (volume * time);
+    for (std::size_t a = 0; a < 3; ++a) {
+      // Between walls, their force is the pressure.
+      if (!periodic[a]) continue;
+      for (std::size_t b = 0; b < 3; ++b) {
+        out.kinetic[a][b] = (to.kinetic[a][b] - from.kinetic[a][b]) * share;
+        out.collisional[a][b] = (to.collisional[a][b] - from.collisional[a][b]) * share;
+      }
+    }
+    const auto all = [&](std::size_t a, std::size_t b) {
+      return out.kinetic[a][b] + out.collisional[a][b];
+    };
+    out.shear_stress = -all(1, 0);
+    out.viscosity = rate != 0 ? out.shear_stress / rate : none;
+    out.first_normal_difference = all(0, 0) - all(1, 1);
+    out.second_normal_difference = all(1, 1) - all(2, 2);
+    return out;
+  }
+
+  template <class Visit>
+  constexpr void for_each(Visit&& visit) const {
+    constexpr Described of_flights[3][3] = {
+        {{"kinetic_xx", unit::pressure, "P_xx by flights: n <m c_x c_x>"},
+         {"kinetic_xy", unit::pressure, "P_xy by flights"},
+         {"kinetic_xz", unit::pressure, "P_xz by flights"}},
+        {{"kinetic_yx", unit::pressure, "P_yx by flights, momentum along x that goes along y"},
+         {"kinetic_yy", unit::pressure, "P_yy by flights"},
+         {"kinetic_yz", unit::pressure, "P_yz by flights"}},
+        {{"kinetic_zx", unit::pressure, "P_zx by flights"},
+         {"kinetic_zy", unit::pressure, "P_zy by flights"},
+         {"kinetic_zz", unit::pressure, "P_zz by flights"}}};
+    constexpr Described of_collisions[3][3] = {
+        {{"collisional_xx", unit::pressure, "P_xx by collisions: r12_x dp_x between centres"},
+         {"collisional_xy", unit::pressure, "P_xy by collisions"},
+         {"collisional_xz", unit::pressure, "P_xz by collisions"}},
+        {{"collisional_yx", unit::pressure, "P_yx by collisions, r12_y dp_x"},
+         {"collisional_yy", unit::pressure, "P_yy by collisions"},
+         {"collisional_yz", unit::pressure, "P_yz by collisions"}},
+        {{"collisional_zx", unit::pressure, "P_zx by collisions"},
+         {"collisional_zy", unit::pressure, "P_zy by collisions"},
+         {"collisional_zz", unit::pressure, "P_zz by collisions"}}};
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t b = 0; b < 3; ++b) visit(of_flights[a][b], kinetic[a][b]);
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t b = 0; b < 3; ++b) visit(of_collisions[a][b], collisional[a][b]);
+    visit(Described{"shear_stress", unit::pressure, "-P_yx"}, shear_stress);
+    visit(Described{"shear_stress_error", unit::pressure, "Its standard error"},
+          shear_stress_error);
+    visit(Described{"viscosity", unit::viscosity, "-P_yx over the rate; NaN without shear"},
+          viscosity);
+    visit(Described{"viscosity_error", unit::viscosity, "Its standard error"}, viscosity_error);
+    visit(Described{"first_normal_difference", unit::pressure, "P_xx - P_yy"},
+          first_normal_difference);
+    visit(Described{"first_normal_difference_error", unit::pressure, "Its standard error"},
+          first_normal_difference_error);
+    visit(Described{"second_normal_difference", unit::pressure, "P_yy - P_zz"},
+          second_normal_difference);
+    visit(Described{"second_normal_difference_error", unit::pressure, "Its standard error"},
+          second_normal_difference_error);
+  }
+};
+
 /// What each effect has put into the energy of the needles since the start of a run, as energy per
 /// needle; negative where it has taken energy out. The sum is the change of Totals::energy, up to
 /// the rounding of needles' motion (Simulation::energy_drift). Effects that the scene has not have

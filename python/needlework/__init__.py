@@ -23,7 +23,7 @@ from .gsd_file import GsdFrame, from_gsd, to_gsd
 from .order import NematicOrder, nematic_order
 from .reading import Events, Recording, Series, VelocitiesSet, read
 from .sweeps import SweepSummary
-from .simulation import (Counters, EnergyBudget, SceneWarning, Simulation, SlidingContacts,
+from .simulation import (Counters, EnergyBudget, PressureTensor, SceneWarning, Simulation, SlidingContacts,
                          SpeciesTotals, Totals, WallTotals)
 from .state import Bodies, State
 from .values import Table, Values
@@ -31,5 +31,5 @@ from .values import Table, Values
 __all__ = ["Bodies", "COLLISION", "COLLISION_WITH_STATES", "Counters", "Data", "EnergyBudget", "Error",
            "Events", "FirstContacts", "Frame", "Frames", "GsdFrame", "HAPPENING", "HAPPENING_WITH_STATES", "InputError",
            "InvalidStateError", "IoError", "KINDS", "NematicOrder", "Recording", "SceneWarning", "Series",
-           "Simulation", "SlidingContacts", "SpeciesTotals", "State", "SweepSummary", "Table", "Totals", "Values", "VelocitiesSet",
+           "PressureTensor", "Simulation", "SlidingContacts", "SpeciesTotals", "State", "SweepSummary", "Table", "Totals", "Values", "VelocitiesSet",
            "WallTotals", "from_gsd", "nematic_order", "plot", "predict", "read", "theory", "to_gsd", "__version__"]

@@ -108,6 +108,65 @@ class RodTotals(Values):
     """Which mean that is: by the virial, on the walls, or why there is none."""
 
 
+class PressureTensor(Values):
+    """Pressure tensor since the start, a mean over the run."""
+
+    # numbers of pressure_tensor
+    kinetic_xx: float
+    """P_xx by flights: n <m c_x c_x> [energy per volume]."""
+    kinetic_xy: float
+    """P_xy by flights [energy per volume]."""
+    kinetic_xz: float
+    """P_xz by flights [energy per volume]."""
+    kinetic_yx: float
+    """P_yx by flights, momentum along x that goes along y [energy per volume]."""
+    kinetic_yy: float
+    """P_yy by flights [energy per volume]."""
+    kinetic_yz: float
+    """P_yz by flights [energy per volume]."""
+    kinetic_zx: float
+    """P_zx by flights [energy per volume]."""
+    kinetic_zy: float
+    """P_zy by flights [energy per volume]."""
+    kinetic_zz: float
+    """P_zz by flights [energy per volume]."""
+    collisional_xx: float
+    """P_xx by collisions: r12_x dp_x between centres [energy per volume]."""
+    collisional_xy: float
+    """P_xy by collisions [energy per volume]."""
+    collisional_xz: float
+    """P_xz by collisions [energy per volume]."""
+    collisional_yx: float
+    """P_yx by collisions, r12_y dp_x [energy per volume]."""
+    collisional_yy: float
+    """P_yy by collisions [energy per volume]."""
+    collisional_yz: float
+    """P_yz by collisions [energy per volume]."""
+    collisional_zx: float
+    """P_zx by collisions [energy per volume]."""
+    collisional_zy: float
+    """P_zy by collisions [energy per volume]."""
+    collisional_zz: float
+    """P_zz by collisions [energy per volume]."""
+    shear_stress: float
+    """-P_yx [energy per volume]."""
+    shear_stress_error: float
+    """Its standard error [energy per volume]."""
+    viscosity: float
+    """-P_yx over the rate; NaN without shear [energy times time per volume]."""
+    viscosity_error: float
+    """Its standard error [energy times time per volume]."""
+    first_normal_difference: float
+    """P_xx - P_yy [energy per volume]."""
+    first_normal_difference_error: float
+    """Its standard error [energy per volume]."""
+    second_normal_difference: float
+    """P_yy - P_zz [energy per volume]."""
+    second_normal_difference_error: float
+    """Its standard error [energy per volume]."""
+    # end of numbers
+
+
 class SlidingContacts(Values):
     """Contacts of needles that slide on each other, since the start."""
 
@@ -151,6 +210,8 @@ class EnergyBudget(Values):
     """Energy by velocities that a caller has replaced [energy]."""
     gravity: float
     """Energy by gravity along periodic axes [energy]."""
+    shear: float
+    """Energy by uniform shear [energy]."""
     # end of numbers
 
     @property
@@ -504,6 +565,13 @@ class Simulation(NotPickled):
         """Contacts and how they have ended; None in a scene without collisions.sliding."""
         contacts = self._run.sliding_contacts()
         return None if contacts is None else SlidingContacts(contacts)
+
+    @property
+    def pressure_tensor(self) -> Optional[PressureTensor]:
+        """Pressure tensor, viscosity and normal stress differences, where the scene has [shear] or
+        output.observables has "pressure_tensor"; else None."""
+        stress = self._run.stress()
+        return None if stress is None else PressureTensor(stress)
 
     @property
     def energy_budget(self) -> EnergyBudget:

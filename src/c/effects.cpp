@@ -35,6 +35,15 @@ int needlework_get_contacts(needlework_simulation* simulation, needlework_contac
   });
 }
 
+int needlework_get_pressure_tensor(needlework_simulation* simulation,
+                                   needlework_pressure_tensor* tensor) {
+  return c::guarded(simulation, [&](needlework_simulation& self) {
+    c::require(tensor, "tensor");
+    c::copy_numbers(self.run.simulation().stress().value_or(StressTotals{}), *tensor,
+                    &needlework_pressure_tensor::kinetic_xx);
+  });
+}
+
 int needlework_get_energy_budget(needlework_simulation* simulation,
                                  needlework_energy_budget* budget) {
   return c::guarded(simulation, [&](needlework_simulation& self) {

@@ -181,6 +181,27 @@ std::string numbers_text(const Sums& sums) {
   return text;
 }
 
+std::string stress_lines(const StressTotals& mean) {
+  const auto with_error = [](double value, double error) {
+    return std::isfinite(error) ? fmt::format("{:.4g} +- {:.2g}", value, error)
+                                : fmt::format("{:.4g}", value);
+  };
+  const auto all = [&](std::size_t a, std::size_t b) {
+    return mean.kinetic[a][b] + mean.collisional[a][b];
+  };
+  std::string text = line("pressure",
+                          "P_xx {:.4g}, P_yy {:.4g}, P_zz {:.4g}, P_yx {:.4g}, P_xy "
+                          "{:.4g}: mean over the run",
+                          all(0, 0), all(1, 1), all(2, 2), all(1, 0), all(0, 1));
+  if (!std::isnan(mean.viscosity)) {
+    text += line("", "viscosity {}, P_xx - P_yy {}, P_yy - P_zz {}",
+                 with_error(mean.viscosity, mean.viscosity_error),
+                 with_error(mean.first_normal_difference, mean.first_normal_difference_error),
+                 with_error(mean.second_normal_difference, mean.second_normal_difference_error));
+  }
+  return text;
+}
+
 std::string rod_line(const Report& report) {
   if (!report.simulation.composition().has_width() || !(report.result.last.time > 0)) return {};
   const observe::RodTotals rods = runs::rod_totals(report.scene, report.simulation);
@@ -341,6 +362,7 @@ std::string summary_of(const Report& report) {
   if (const auto contacts = report.simulation.sliding_contacts()) {
     text += line("contacts", "{}", numbers_text(*contacts));
   }
+  if (const auto stress = report.simulation.stress()) text += stress_lines(*stress);
   text += rod_line(report);
   text += wall_lines(report);
   text += budget_line(report);

@@ -22,6 +22,7 @@
 #include "src/scene/box_edges.h"
 #include "src/scene/check.h"
 #include "src/scene/confinement.h"
+#include "src/scene/observable_names.h"
 
 namespace needlework {
 namespace {
@@ -74,16 +75,18 @@ double crossing_time(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
 Effects effects_of(const Scene& scene) {
   const Composition composition = scene.composition();
   const std::optional<std::size_t> only = composition.only();
-  return {.rough = composition.is_rough(),
-          .contact_time = scene.collisions.tc || scene.collisions.tc_relative,
-          .table = !only || !is_unit(composition[*only]),
-          .width = composition.has_width(),
-          .spheres = composition.has_width() && composition.are_spheres(),
-          .sliding = scene.collisions.sliding,
-          .kicks = scene.driving.kicks.has_value(),
-          .gravity = has_gravity(scene),
-          .shear = scene.shear.has_value(),
-          .stress = scene.shear.has_value()};
+  return {
+      .rough = composition.is_rough(),
+      .contact_time = scene.collisions.tc || scene.collisions.tc_relative,
+      .table = !only || !is_unit(composition[*only]),
+      .width = composition.has_width(),
+      .spheres = composition.has_width() && composition.are_spheres(),
+      .sliding = scene.collisions.sliding,
+      .kicks = scene.driving.kicks.has_value(),
+      .gravity = has_gravity(scene),
+      .shear = scene.shear.has_value(),
+      .stress = scene.shear || std::ranges::find(scene.output.observables, pressure_tensor_name) !=
+                                   scene.output.observables.end()};
 }
 
 Run::Run(const Scene& scene)
@@ -200,6 +203,7 @@ void Run::pass_window() {
                     gas.clock.since_start(now));
   }
   open_window_and_note_drift();
+  if (effects.stress) stress_batches.pass_window(gas.clock.since_start(now), stress_sums());
   std::uint64_t events = tally.collisions;
   for (const SourceTally& source : tally.by_source) events += source.events;
   windows.count(events);
@@ -240,6 +244,22 @@ StressSums Run::stress_sums() const {
       out.collisional[i][j] = over.collisional[i][j].value();
     }
   }
+  return out;
+}
+
+StressTotals Run::stress() const {
+  const auto between = [&](const StressSums& from, const StressSums& to, double time) {
+    return StressTotals::between(from, to, time, gas.box.volume(), gas.box.periodic(),
+                                 gas.shear ? gas.shear->rate() : 0);
+  };
+  StressTotals out = between({}, stress_sums(), gas.clock.since_start(now));
+  const auto error = [&](double StressTotals::*number) {
+    return stress_batches.error(between, [&](const StressTotals& batch) { return batch.*number; });
+  };
+  out.shear_stress_error = error(&StressTotals::shear_stress);
+  out.viscosity_error = error(&StressTotals::viscosity);
+  out.first_normal_difference_error = error(&StressTotals::first_normal_difference);
+  out.second_normal_difference_error = error(&StressTotals::second_normal_difference);
   return out;
 }
 

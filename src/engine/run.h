@@ -114,10 +114,13 @@ class Run {
   }
   /// The pressure tensor of the run so far, times volume and time. [energy time]
   StressSums stress_sums() const;
+  /// Its mean over the run, where it is measured.
+  StressTotals stress() const;
 
   /// By gravity along periodic axes, which events do not count; work_of_pull().
   double work_at_start = 0, work_at_opening = 0;
   TemperatureIntegral temperature_integral;
+  StressBatches stress_batches;
   Tally tally;
   Accuracy accuracy;
   Effects effects;  ///< effects that the scene requires

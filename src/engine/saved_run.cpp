@@ -76,6 +76,7 @@ std::vector<double> physics_of(const Run& run, const Scene& scene) {
   const auto add = [&](const std::vector<double>& parameters) {
     out.insert(out.end(), parameters.begin(), parameters.end());
   };
+  if (run.effects.stress) add({1});
   if (run.gas.shear) add({run.gas.shear->velocity(), run.gas.shear->start()});
   if (run.gas.falls) add({run.gas.gravity.x, run.gas.gravity.y, run.gas.gravity.z});
   for (const auto& source : run.sources) add(source->parameters());
@@ -273,6 +274,7 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
   if (effects.stress) {
     archive(tally.stress, tally.flow);
     require(tally.stress.size() <= 1);
+    stress_batches.transfer(archive);
   }
   if (effects.shear) archive(work_at_opening);
   if (!(gas.pull == Vec3d{})) archive(work_at_start, work_at_opening);

@@ -95,6 +95,7 @@ std::string name_effects(const Run& run) {
   for (const auto& source : run.sources) out += fmt::format(" {}s", source->name());
   if (run.gas.falls) out += " gravity";
   if (run.kicks) out += " kicks";
+  if (run.gas.shear) out += " shear";
   return out;
 }
 
@@ -470,6 +471,16 @@ std::optional<SlidingContacts> Simulation::sliding_contacts() const {
                          .crowded = tally.crowded,
                          .time = tally.time.value(),
                          .share = 2 * tally.time.value() / of_all};
+}
+
+std::optional<StressTotals> Simulation::stress() const {
+  const Access self = access();
+  return self->run.effects.stress ? std::optional(self->run.stress()) : std::nullopt;
+}
+
+std::optional<StressSums> Simulation::stress_sums() const {
+  const Access self = access();
+  return self->run.effects.stress ? std::optional(self->run.stress_sums()) : std::nullopt;
 }
 
 EnergyBudget Simulation::energy_budget() const { return access()->run.energy_budget(); }

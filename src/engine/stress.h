@@ -2,16 +2,18 @@
 // over between centres.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "kernels/vec3.h"
+#include "needlework/totals.h"
 #include "src/trajectory/exact_total.h"
 
 namespace needlework {
-
-/// Nine numbers, [transport][momentum].
-using Tensor = std::array<std::array<double, 3>, 3>;
 
 /// The integral of c c over a flight of duration `t`, of a velocity that is c at its start and
 /// changes by `gain` per time.
@@ -26,11 +28,6 @@ inline Tensor carried(const Vec3d& c, const Vec3d& gain, double t) {
   }
   return out;
 }
-
-/// Of a whole run, divided by volume and time the pressure tensor. [energy time]
-struct StressSums {
-  Tensor kinetic{}, collisional{};
-};
 
 /// Sums of a thread, which do not depend on their order: divided by volume and time they are the
 /// pressure tensor. [energy time], [energy time]
@@ -68,6 +65,73 @@ struct StressTally {
       }
     }
   }
+};
+
+/// Sums at equal distances in windows of a run, from which standard errors follow: 32 to 64
+/// batches, neighbours of which are joined as there come more.
+class StressBatches {
+ public:
+  static constexpr std::size_t most = 64, fewest = 8;
+
+  struct Boundary {
+    double time = 0;
+    StressSums sums;
+  };
+  /// At the end of each window.
+  void pass_window(double time, const StressSums& sums) {
+    if (++windows_ % every_ != 0) return;
+    boundaries_.push_back({time, sums});
+    if (boundaries_.size() < most) return;
+    for (std::size_t n = 1; n < most; n += 2) boundaries_[n / 2] = boundaries_[n];
+    boundaries_.resize(most / 2);
+    every_ *= 2;
+  }
+  /// The standard error of the mean of quantity(batch), batch a mean by between(from, to, time).
+  template <class Between, class Quantity>
+  double error(const Between& between, const Quantity& quantity) const {
+    if (boundaries_.size() < fewest) return StressTotals::none;
+    double sum = 0, squares = 0;
+    Boundary last;
+    for (const Boundary& next : boundaries_) {
+      const double value = quantity(between(last.sums, next.sums, next.time - last.time));
+      sum += value;
+      squares += value * value;
+      last = next;
+    }
+    const auto n = static_cast<double>(boundaries_.size());
+    return std::sqrt(std::max(0.0, squares / n - (sum / n) * (sum / n)) / (n - 1));
+  }
+
+  template <class A>
+  void transfer(A& archive) {
+    archive(windows_, every_);
+    std::vector<double> numbers;
+    for (const Boundary& each : boundaries_) put(each, numbers);
+    archive(numbers);
+    if (!archive.reads()) return;
+    archive.require(every_ > 0 && numbers.size() % size == 0 && numbers.size() < most * size);
+    boundaries_.clear();
+    for (std::size_t n = 0; n < numbers.size(); n += size) boundaries_.push_back(get(&numbers[n]));
+  }
+
+ private:
+  static constexpr std::size_t size = 19;  // numbers of a boundary
+  static void put(const Boundary& from, std::vector<double>& to) {
+    to.push_back(from.time);
+    for (const Tensor* tensor : {&from.sums.kinetic, &from.sums.collisional})
+      for (const auto& row : *tensor) to.insert(to.end(), row.begin(), row.end());
+  }
+  static Boundary get(const double* from) {
+    Boundary out;
+    out.time = *from++;
+    for (Tensor* tensor : {&out.sums.kinetic, &out.sums.collisional})
+      for (auto& row : *tensor)
+        for (double& number : row) number = *from++;
+    return out;
+  }
+
+  std::uint64_t windows_ = 0, every_ = 1;
+  std::vector<Boundary> boundaries_;
 };
 
 }  // namespace needlework

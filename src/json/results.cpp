@@ -40,6 +40,10 @@ void add_contacts(Json& json, const Simulation& simulation) {
   if (const auto contacts = simulation.sliding_contacts()) add_numbers(json["contacts"], *contacts);
 }
 
+void add_stress(Json& json, const Simulation& simulation) {
+  if (const auto stress = simulation.stress()) add_numbers(json["pressure_tensor"], *stress);
+}
+
 void add_rods(Json& json, const Scene& scene, const Simulation& simulation) {
   const observe::RodTotals rods = runs::rod_totals(scene, simulation);
   add_numbers(json["rods"], rods);

@@ -37,6 +37,9 @@ void add_energy_budget(nlohmann::ordered_json& json, const Simulation& simulatio
 /// Adds "contacts", where needles may slide on each other.
 void add_contacts(nlohmann::ordered_json& json, const Simulation& simulation);
 
+/// Adds "pressure_tensor", where it is measured.
+void add_stress(nlohmann::ordered_json& json, const Simulation& simulation);
+
 /// Adds "rods", {..., pressure_meaning}, of rods of finite width.
 void add_rods(nlohmann::ordered_json& json, const Scene& scene, const Simulation& simulation);
 

@@ -53,6 +53,7 @@ struct GasSetting {
   Box box;
   double length = 1, mass = 1;  ///< of several species the longest length, and no mass
   double inertia = 1;           ///< I = m L^2 / (2 k)
+  double shear_rate = 0;        ///< of the uniform flow [1 / time]
   std::array<int, 3> cells{1, 1, 1};
   std::vector<Slabs> wall_slabs;  ///< across each axis with walls
   Composition composition;
@@ -71,7 +72,7 @@ std::vector<SeriesField::Extent> by_pair(const Composition& composition,
                                          std::vector<SeriesField::Extent> shape);
 
 /// Sums by species at one instant, collisions of each two by Composition::pair_index, hits on
-/// walls, what has changed the energy, the virial of rods, and contacts.
+/// walls, what has changed the energy, the virial of rods, contacts, and the pressure tensor.
 struct SpeciesSums {
   std::vector<SpeciesTotals> totals = {};
   std::vector<std::uint64_t> collisions = {};
@@ -80,6 +81,7 @@ struct SpeciesSums {
   double virial = 0;              ///< of rods, Simulation::virial()
   double t_tr_integral = 0;       ///< of rods, Simulation::t_tr_integral()
   SlidingContacts contacts = {};  ///< of needles that slide on each other
+  StressSums stress = {};         ///< where it is measured
 };
 
 /// The gas at one instant. Holds references.

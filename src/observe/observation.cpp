@@ -9,6 +9,7 @@
 #include "src/observe/rod_sums.h"
 #include "src/scene/box_of.h"
 #include "src/scene/confinement.h"
+#include "src/scene/observable_names.h"
 
 namespace needlework::observe {
 
@@ -16,6 +17,7 @@ GasSetting setting_of(const Scene& scene) {
   GasSetting gas;
   gas.count = gas.all = scene.needles.count;
   gas.box = box_of(scene);
+  gas.shear_rate = scene.shear ? scene.shear->rate : 0;
   gas.cells = scene.output.grid.value_or(default_cells(gas.box.edges(), gas.count));
   gas.wall_slabs = wall_slabs(scene);
   gas.composition = scene.composition();
@@ -80,7 +82,8 @@ Observation::Observation(const Scene& scene, ObservablePointer cooling, SpeciesB
                         std::move(cooling)});
   }
   for (const Entry& entry : registry()) {
-    if (std::ranges::find(names, entry.name) == names.end()) continue;
+    const bool always = scene.shear && entry.name == pressure_tensor_name;
+    if (!always && std::ranges::find(names, entry.name) == names.end()) continue;
     members_.push_back({std::string(entry.name), std::string(entry.meaning), make(entry)});
   }
   for (const Member& member : members_) {
@@ -121,7 +124,8 @@ std::span<const double> Observation::sample(const State& state, const Totals& to
                            species.energy,
                            species.virial,
                            species.t_tr_integral,
-                           species.contacts};
+                           species.contacts,
+                           species.stress};
   const Snapshot now(gas_, state, totals, is_mixture ? species : of_all);
   if (is_mixture) parts_.take(now);
   for (const Member& member : members_) member.observable->sample(now, row_);

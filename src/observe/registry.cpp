@@ -33,6 +33,9 @@ constexpr Entry entries[] = {
     {"wall_profiles", "Density, temperatures and order in slabs between walls, or over one",
      make_wall_profiles},
     {"centre_of_mass", "Centre of mass along the axes with walls", make_centre_of_mass, true},
+    {"pressure_tensor",
+     "Pressure tensor by flights and by collisions, viscosity and normal stress differences",
+     make_pressure_tensor, true},
 };
 
 static_assert(std::ranges::equal(entries, observable_names, {}, &Entry::name),

@@ -97,6 +97,7 @@ void add_run(py::module_& module) {
       .def("energy_budget", &Run::energy_budget)
       .def("rod_totals", &Run::rod_totals)
       .def("sliding_contacts", &Run::sliding_contacts)
+      .def("stress", &Run::stress)
       .def("counters", &Run::counters)
       .def("facts", &Run::facts)
       .def("time", &Run::time)

@@ -357,6 +357,12 @@ py::object Run::sliding_contacts() {
   return contacts ? py::object(numbers_of(*contacts)) : py::none();
 }
 
+py::object Run::stress() {
+  require_idle();
+  const auto stress = run_->simulation().stress();
+  return stress ? py::object(numbers_of(*stress)) : py::none();
+}
+
 py::dict Run::energy_budget() {
   require_idle();
   return numbers_of(run_->simulation().energy_budget());

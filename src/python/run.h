@@ -71,6 +71,7 @@ class Run {
   pybind11::dict energy_budget();
   pybind11::dict rod_totals();
   pybind11::object sliding_contacts();
+  pybind11::object stress();
   pybind11::dict counters();
   /// The scene, which does not change, and the parts of the engine in use.
   pybind11::dict facts();

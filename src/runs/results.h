@@ -20,6 +20,10 @@ void for_each_result(Visit&& visit) {
   visit(ResultKind{"walls", "Hits on one wall since the start"}, WallTotals{});
   visit(ResultKind{"contacts", "Contacts of needles that slide on each other, since the start"},
         SlidingContacts{});
+  visit(ResultKind{"pressure_tensor",
+                   "Pressure tensor since the start, a mean over the run. The first letter of an "
+                   "index is the axis along which momentum goes, the second its component"},
+        StressTotals{});
   visit(ResultKind{"energy_budget",
                    "What each effect has put into the energy per needle since the start; negative: "
                    "taken out. The sum is the change of the energy, up to rounding"},

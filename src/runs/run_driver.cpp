@@ -288,6 +288,7 @@ void RunDriver::sample(bool series, bool frame) {
       if (simulation_.composition().has_width())
         species.t_tr_integral = simulation_.t_tr_integral();
       species.contacts = simulation_.sliding_contacts().value_or(SlidingContacts{});
+      species.stress = simulation_.stress_sums().value_or(StressSums{});
       const auto values = observation->sample(state, totals, species);
       if (writer) writer->write_series(totals, values);
     }

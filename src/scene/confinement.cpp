@@ -81,7 +81,7 @@ std::string Room::expected_instead_of(const std::array<double, 3>& box) const {
 }
 
 bool acts_on_single_needles(const Scene& scene) {
-  return !scene.walls.empty() || scene.driving.kicks || scene.driving.andersen;
+  return !scene.walls.empty() || scene.driving.kicks || scene.driving.andersen || scene.shear;
 }
 
 bool exchanges_energy(const Scene& scene) {
@@ -89,7 +89,7 @@ bool exchanges_energy(const Scene& scene) {
     return wall.epsilon < 1 || wall.temperature || wall.motion;
   };
   return std::ranges::any_of(scene.walls, exchanges) || scene.driving.kicks ||
-         scene.driving.andersen;
+         scene.driving.andersen || scene.shear;
 }
 
 bool is_pushed(const Scene& scene) { return exchanges_energy(scene) || has_gravity(scene); }

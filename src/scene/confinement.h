@@ -45,10 +45,11 @@ class Room {
   const char* body_ = "needle";  ///< whose length, from end to end, it is
 };
 
-/// Whether a needle's motion may change without a collision: walls or driving do so.
+/// Whether a needle's motion may change without a collision: walls or driving do so, and in a
+/// uniform flow the part of it that is not the flow's.
 bool acts_on_single_needles(const Scene& scene);
 /// Whether energy may change but in collisions of needles: by inelastic, thermal or moving walls,
-/// or by driving.
+/// by driving or by uniform shear.
 bool exchanges_energy(const Scene& scene);
 
 /// Whether anything changes the motion of needles so that a gas does not just cool or stay as it

@@ -55,6 +55,7 @@ Json summary_of(const runs::PreparedRun& run) {
   if (!run.scene().walls.empty()) json::add_walls(answer, simulation);
   if (acts_on_single_needles(run.scene())) json::add_energy_budget(answer, simulation);
   json::add_contacts(answer, simulation);
+  json::add_stress(answer, simulation);
   return answer;
 }
 
