@@ -27,20 +27,26 @@ struct Bodies {
 /// Positions, velocities, directors and angular velocities of N needles, one row of three numbers
 /// for each needle.
 struct State {
-  std::array<double, 3> box{};                          ///< edges [L]
-  std::array<bool, 3> periodic{true, true, true};       ///< along which axes the box is; along the
-                                                        ///< others, walls or open sides end it
-  std::vector<std::array<double, 3>> position;          ///< centres, inside the box or not [L]
-  std::vector<std::array<double, 3>> velocity;          ///< [L / time]
-  std::vector<std::array<double, 3>> orientation;       ///< unit directors [1]
-  std::vector<std::array<double, 3>> angular_velocity;  ///< normal to the director [1 / time]
-  std::vector<std::array<std::int32_t, 3>> image;       ///< number of box crossings along each
-                                                        ///< axis; empty: all 0
-  std::vector<std::uint32_t> id;                        ///< distinct; empty: 0 to N - 1
-  std::vector<std::uint8_t> species;                    ///< indices into the species of the scene;
-                                                        ///< empty: as many as the scene counts of
-                                                        ///< each, in order of id
-  Bodies bodies;                                        ///< of the file that it was read from
+  std::array<double, 3> box{};                     ///< edges [L]
+  std::array<bool, 3> periodic{true, true, true};  ///< along which axes the box is; along the
+                                                   ///< others, walls or open sides end it
+  double slide = 0;       ///< of the row of boxes above along x, from 0 to the edge [L]
+  double shear_rate = 0;  ///< of the uniform flow, rate * y along x, that they have [1 / time]
+  std::vector<std::array<double, 3>> position;           ///< centres, inside the box or not [L]
+  std::vector<std::array<double, 3>> velocity;           ///< [L / time]
+  std::vector<std::array<double, 3>> peculiar_velocity;  ///< beside the flow of [shear], whichever
+                                                         ///< image is stored; a copy has it in a
+                                                         ///< flow, and a start takes it where
+                                                         ///< velocity is empty [L / time]
+  std::vector<std::array<double, 3>> orientation;        ///< unit directors [1]
+  std::vector<std::array<double, 3>> angular_velocity;   ///< normal to the director [1 / time]
+  std::vector<std::array<std::int32_t, 3>> image;        ///< number of box crossings along each
+                                                         ///< axis; empty: all 0
+  std::vector<std::uint32_t> id;                         ///< distinct; empty: 0 to N - 1
+  std::vector<std::uint8_t> species;                     ///< indices into the species of the scene;
+                                                         ///< empty: as many as the scene counts of
+                                                         ///< each, in order of id
+  Bodies bodies;                                         ///< of the file that it was read from
 
   std::size_t size() const { return position.size(); }
   /// Resizes all arrays to n needles, images and ids included.

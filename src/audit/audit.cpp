@@ -65,6 +65,10 @@ Space space_of(const State& state, const Setup& setup, double unit) {
   for (const Scene::Wall& wall : setup.walls) {
     out.periodic[wall.axis == "x" ? 0 : wall.axis == "y" ? 1 : 2] = false;
   }
+  if (setup.shear) {
+    const double velocity = setup.shear->rate * state.box[1] * (setup.epoch_length / unit);
+    out.rows.emplace(velocity, state.slide / unit, out.box[0], out.box[1]);
+  }
   out.gravity = vector(setup.gravity) * (setup.epoch_length * setup.epoch_length / unit);
   return out;
 }
@@ -122,9 +126,15 @@ Audit::Audit(const State& initial, const Setup& setup)
       ids_(initial.id),
       needles_(needles_of(initial, {}, bodies_, setup.epoch_length, unit_)),
       walls_(walls_of(setup.walls, space_.box, setup.epoch_length, unit_)),
-      windows_(needles_, bodies_, space_.box[0] * space_.box[1] * space_.box[2],
+      windows_(beside_flow(needles_), bodies_, space_.box[0] * space_.box[1] * space_.box[2],
                setup.driving.kicks ? setup.driving.kicks->every / setup.epoch_length : HUGE_VAL),
       initial_energy_(energy()) {
+  if (setup.shear && (!setup.walls.empty() || norm(space_.gravity) > 0 || setup.driving.kicks ||
+                      setup.driving.andersen)) {
+    throw InputError(
+        "an audit of [shear]: expected a scene without [[walls]], [forces] and [driving] beside "
+        "it");
+  }
   if (setup_.tc) *setup_.tc /= setup.epoch_length;
   if (setup.driving.kicks) {
     kicks_.emplace(*setup.driving.kicks, setup.scene_seed, setup.epoch_length, unit_);
@@ -166,6 +176,18 @@ Instant Audit::begin_of(Index i, Index j) const {
   return std::max(needles_[i].record.time, needles_[j].record.time);
 }
 
+// The second needle in an image, but for whole boxes, which flights add themselves.
+Needle Audit::image_of(Index second, const Shift& shift, Index first) const {
+  const Needle& needle = needles_[second];
+  return space_.rows ? space_.rows->image(needle, shift[1], begin_of(first, second)) : needle;
+}
+
+std::vector<Needle> Audit::beside_flow(std::vector<Needle> needles) const {
+  if (!space_.rows) return needles;
+  for (Needle& each : needles) each = space_.rows->beside_flow(each);
+  return needles;
+}
+
 // Counted from the later of both records.
 Approach Audit::approach_of(Index i, Index j, double duration) const {
   const Record &a = needles_[i].record, &b = needles_[j].record;
@@ -175,7 +197,12 @@ Approach Audit::approach_of(Index i, Index j, double duration) const {
   const auto centre = [&](const Record& record) {
     return record.r + (record.v + space_.gravity * (0.5 * age(record))) * age(record);
   };
-  return {centre(a) - centre(b), a.v - b.v + space_.gravity * (age(a) - age(b))};
+  Approach out{centre(a) - centre(b), a.v - b.v + space_.gravity * (age(a) - age(b))};
+  if (space_.rows) {
+    out.slide = space_.rows->at(begin).offset;
+    out.row_velocity = space_.rows->velocity();
+  }
+  return out;
 }
 
 void Audit::report(Kind kind, Index i, Index j, const Instant& begin, double s) {
@@ -251,7 +278,7 @@ void Audit::add(const Happening& reported) {
 
 void Audit::advance_windows(const Instant& now) {
   if (!setup_.tc_relative && !setup_.sliding) return;
-  windows_.advance(now, [&](const Instant& end) { return present(end); });
+  windows_.advance(now, [&](const Instant& end) { return beside_flow(present(end)); });
 }
 
 void Audit::note_in_fingerprint(std::uint64_t word) { fingerprint_ = mixed(fingerprint_ ^ word); }

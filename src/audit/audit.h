@@ -118,6 +118,7 @@ struct Setup {
   std::optional<Sliding> sliding;
   std::vector<Scene::Wall> walls = {};
   std::array<double, 3> gravity{};  ///< [L / time^2]
+  std::optional<Scene::Shear> shear = {};
   Scene::Driving driving = {};
   std::uint64_t scene_seed = 1;  ///< of the random numbers of kicks
   double share = 1;              ///< fraction of all pairs that are checked
@@ -216,6 +217,9 @@ class Audit {
   Instant begin_of(Index i, Index j) const;  ///< the later of the times of both records
   /// For a flight that lasts so long.
   Approach approach_of(Index i, Index j, double duration) const;
+  Needle image_of(Index second, const Shift& shift, Index first) const;
+  /// With velocities beside the flow of a sheared gas.
+  std::vector<Needle> beside_flow(std::vector<Needle> needles) const;
   Shift nearest_image(const Approach& approach, double s) const;  ///< at this time of a flight
   void check_order(const Instant& now, const Happening& happening);
   void check_pair(const Instant& now, const Collision& collision,

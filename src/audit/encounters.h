@@ -1,7 +1,9 @@
 // Finds which periodic images of two needles come within reach of each other, and when.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "src/audit/pair_flight.h"
@@ -13,12 +15,23 @@ namespace needlework::audit {
 struct Approach {
   Vector<double> r, v;
   double bow = 0;  ///< by how much they may depart from that between the ends of the flight [L]
+  /// Of the row of images above, along x: its place at time 0, and its velocity.
+  double slide = 0, row_velocity = 0;
+
+  /// To the images so many rows up.
+  Approach to_row(int rows) const {
+    Approach out = *this;
+    out.r[0] -= rows * slide;
+    out.v[0] -= rows * row_velocity;
+    return out;
+  }
 };
 
 /// r12 at time s for this image.
 inline Vector<double> separation(const Approach& approach, double s, const Shift& shift,
                                  const std::array<double, 3>& box) {
-  Vector<double> r = approach.r + approach.v * s;
+  const Approach to_row = approach.to_row(shift[1]);
+  Vector<double> r = to_row.r + to_row.v * s;
   for (int axis = 0; axis < 3; ++axis) r[axis] -= shift[axis] * box[axis];
   return r;
 }
@@ -35,10 +48,11 @@ inline double reach_of(const AuditedBody& first, const AuditedBody& second) {
   return first.extent() / 2 + second.extent() / 2 + 0x1p-20;
 }
 
-/// Calls `found` for each encounter in [0, duration].
+/// Calls `found` for each encounter in [0, duration], with images of the rows from `lowest` to
+/// `highest` alone.
 template <class Found>
-void for_each_encounter(const Approach& approach, double reach, double duration, const Space& space,
-                        Found&& found) {
+void for_each_encounter_in_rows(const Approach& approach, double reach, double duration,
+                                const Space& space, int lowest, int highest, Found&& found) {
   const std::array<double, 3>& box = space.box;
   const double flown = norm(approach.v) * duration;
   const double pieces = std::max(1.0, std::ceil(flown));
@@ -56,6 +70,10 @@ void for_each_encounter(const Approach& approach, double reach, double duration,
       if (!space.periodic[static_cast<std::size_t>(axis)]) {
         none = std::abs(r) > near;
         first[axis] = last[axis] = 0;
+      }
+      if (axis == 1) {
+        first[axis] = std::max(first[axis], lowest);
+        last[axis] = std::min(last[axis], highest);
       }
       none = none || first[axis] > last[axis];
     }
@@ -83,6 +101,23 @@ void for_each_encounter(const Approach& approach, double reach, double duration,
         }
       }
     }
+  }
+}
+
+/// The same of all rows.
+template <class Found>
+void for_each_encounter(const Approach& approach, double reach, double duration, const Space& space,
+                        Found&& found) {
+  constexpr int most = std::numeric_limits<int>::max();
+  if (!space.rows)
+    return for_each_encounter_in_rows(approach, reach, duration, space, -most, most, found);
+  const double way = approach.v[1] * duration, edge = space.box[1], near = reach + 0x1p-20;
+  const double low = approach.r[1] + std::min(0.0, way) - near,
+               high = approach.r[1] + std::max(0.0, way) + near;
+  const int first = static_cast<int>(std::ceil(low / edge)),
+            last = static_cast<int>(std::floor(high / edge));
+  for (int row = first; row <= last; ++row) {
+    for_each_encounter_in_rows(approach.to_row(row), reach, duration, space, row, row, found);
   }
 }
 

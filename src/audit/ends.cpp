@@ -51,7 +51,7 @@ double Audit::energy() const {
     if (space_.periodic[static_cast<std::size_t>(axis)]) weight[axis] = 0;
     if (weight[axis] > 0) lowest[axis] = space_.box[static_cast<std::size_t>(axis)];
   }
-  long double sum = energy_of(needles_);
+  long double sum = energy_of(beside_flow(needles_));
   for (const Needle& needle : needles_) {
     sum += needle.body.mass * dot(weight, lowest - needle.record.r);
   }
@@ -66,17 +66,23 @@ bool Audit::is_as_given(const Needle& needle, const State& given, std::size_t i)
   const Vector<double> v = vector(given.velocity[i]) * (epoch / unit_);
   const Vector<double> spin = vector(given.angular_velocity[i]) * epoch;
   const Vector<double> w = spin - u * dot(u, spin);
-  for (int axis = 0; axis < 3; ++axis) {
-    const double position = given.position[i][axis] / unit_;
+  double beside = 0, past = 0;  // of the row that it is given in
+  for (const int axis : {1, 0, 2}) {
+    const double position = given.position[i][axis] / unit_ - (axis == 0 ? beside : 0);
     const double boxes = (position - record.r[axis]) / space_.box[axis];
     const double size = std::abs(position) / space_.box[axis] + 1;
     const bool periodic = space_.periodic[static_cast<std::size_t>(axis)];
     const double whole = periodic ? std::round(boxes) : 0;
     if (!(std::abs(boxes - whole) <= rounding * size)) return false;
+    if (axis == 1 && space_.rows) {
+      beside = whole * space_.rows->at({}).offset;
+      past = whole * space_.rows->velocity();
+    }
   }
   const bool of_species =
       given.species.empty() || bodies_.size() == 1 || given.species[i] == needle.body.species;
-  return of_species && near(record.u, u, 1) && near(record.v, v, norm(v)) &&
+  return of_species && near(record.u, u, 1) &&
+         near(record.v, v - Vector<double>{{past, 0, 0}}, norm(v) + std::abs(past)) &&
          near(record.w, w, norm(spin));
 }
 
@@ -105,7 +111,8 @@ void Audit::check_start(const Scene& scene, const State* given) {
     // together have exactly the energies of all of them.
     const double speed = setup_.epoch_length / unit_, scale = speed * speed;
     double t_tr = 0, t_rot = 0, found_tr = 0, found_rot = 0;
-    const auto found = temperatures_of(needles_, bodies_);
+    const std::vector<Needle> needles = beside_flow(needles_);
+    const auto found = temperatures_of(needles, bodies_);
     for (std::size_t index = 0; index < bodies_.size(); ++index) {
       const Species& species = composition[index];
       const double count = static_cast<double>(species.count);
@@ -117,7 +124,7 @@ void Audit::check_start(const Scene& scene, const State* given) {
     }
     Vector<double> momentum{};
     double most = 0;
-    for (const Needle& needle : needles_) {
+    for (const Needle& needle : needles) {
       momentum = momentum + needle.record.v * needle.body.mass;
       most += needle.body.mass * norm(needle.record.v);
     }
@@ -137,8 +144,9 @@ void Audit::check_end(const Scene::Until& until, Stop reason, double time) {
   const double infinity = std::numeric_limits<double>::infinity();
   const double latest = until.time.value_or(infinity);
   const double most = until.collisions_per_needle.value_or(infinity) * count / 2;
+  // In a uniform flow, energy changes in flight: of its end, that it was an end is all there is.
   const double least_energy =
-      until.energy_ratio ? *until.energy_ratio * initial_energy_ : -infinity;
+      until.energy_ratio && !space_.rows ? *until.energy_ratio * initial_energy_ : -infinity;
   const double energy = this->energy();
   const double before = energy - last_energy_change_;
   const double last = last_ ? since_start(last_->first) * setup_.epoch_length : 0;
@@ -156,6 +164,7 @@ void Audit::check_end(const Scene::Until& until, Stop reason, double time) {
       right &= collisions >= most && near(time, last, rounding);
       break;
     case Stop::energy:
+      if (space_.rows) return;
       right &= energy <= least_energy + slack && near(time, last, rounding);
       break;
     case Stop::nothing_can_happen:
@@ -174,7 +183,8 @@ void Audit::check_end(const Scene::Until& until, Stop reason, double time) {
 // Whether no two needles can ever meet: none turns, and all move alike.
 bool Audit::is_at_rest() const {
   const Scene::Driving& driving = setup_.driving;
-  if (!walls_.empty() || norm(space_.gravity) != 0 || driving.kicks || driving.andersen) {
+  if (!walls_.empty() || norm(space_.gravity) != 0 || driving.kicks || driving.andersen ||
+      (space_.rows && needles_.size() > 1)) {
     return needles_.empty();
   }
   if (needles_.size() < 2) return true;

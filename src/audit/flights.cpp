@@ -23,9 +23,10 @@ Start start_of(const Vector<double>& r, const std::optional<Continuation>& conti
 }  // namespace
 
 Shift Audit::nearest_image(const Approach& approach, double s) const {
-  const Vector<double> r = separation(approach, s, {}, space_.box);
-  Shift nearest;
-  for (int axis = 0; axis < 3; ++axis) {
+  // In which row it is comes first: where it is along x depends on that.
+  Shift nearest{};
+  for (const int axis : {1, 0, 2}) {
+    const Vector<double> r = separation(approach, s, nearest, space_.box);
     nearest[axis] = static_cast<std::int32_t>(space_.boxes_along<double>(axis, r[axis]));
   }
   return nearest;
@@ -112,7 +113,7 @@ void Audit::settle(const PairMotion& pair, bool undecided) {
 
 template <class Check>
 void Audit::with_motion(const Flown& flown, const Check& check) const {
-  const Needle &first = needles_[flown.first], &second = needles_[flown.second];
+  const Needle& first = needles_[flown.first];
   const Shift& shift = flown.encounter.shift;
   if (setup_.sliding && (joints_[flown.first] || joints_[flown.second])) {
     const Instant begin = begin_of(flown.first, flown.second);
@@ -123,6 +124,7 @@ void Audit::with_motion(const Flown& flown, const Check& check) const {
                       flown.duration);
     return check(pair);
   }
+  const Needle second = image_of(flown.second, shift, flown.first);
   PairFlight pair(first, second, shift, space_, flown.start);
   check(pair);
 }

@@ -153,7 +153,7 @@ PairFlight::Uncertainty PairFlight::uncertainty(double s) const {
   // Lengths whose rounding matters: the separation at s = 0, including the flight of the older
   // record until then, and the flight since.
   Uncertainty out{0, {}, distance_ + speed_ * std::abs(s)};
-  bool renewed = norm(space_.gravity) > 0;  // sooner than others
+  bool renewed = space_.rounds();  // sooner than others
   for (int i = 0; i < 2; ++i) {
     const double delay = upper(delay_[i]), age = delay + std::abs(s);
     out.lengths += velocity_[i] * delay;

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "src/audit/flight.h"
+#include "src/audit/rows.h"
 
 namespace needlework::audit {
 
@@ -63,8 +64,9 @@ struct Space {
   std::array<double, 3> box{};
   double longest = 1;  ///< length of the longest needle
   std::array<bool, 3> periodic{true, true, true};
-  Vector<double> gravity{};  ///< acceleration of all needles [L / time^2]
-  double outside = 0;        ///< by so much coordinates may be beyond the box [L]
+  Vector<double> gravity{};       ///< acceleration of all needles [L / time^2]
+  double outside = 0;             ///< by so much coordinates may be beyond the box [L]
+  std::optional<Rows> rows = {};  ///< of images, where they slide
 
   /// The number of boxes nearest to a distance along an axis; 0 where there are no images.
   template <class Real>
@@ -73,6 +75,8 @@ struct Space {
     if (!periodic[static_cast<std::size_t>(axis)]) return Real(0);
     return floor(distance / Real(box[static_cast<std::size_t>(axis)]) + Real(0.5));
   }
+  /// Whether records, or images, are rounded between the events that are told.
+  bool rounds() const { return norm(gravity) > 0 || rows; }
   /// Largest change of a contact function by rounding a new record. [L]
   double rounding() const { return 0x1p-51 * (1 + box[0] + box[1] + box[2] + outside); }
   /// If |f| is below this and contact points are on the needles or within `beside` of them, f is

@@ -30,14 +30,16 @@ void Audit::keep_if_overlapping(const Flown& flown, RodFlight& pair) {
 // Of two rods whose records, of the same time, are those after their collision: rounding them may
 // have moved one into the other.
 void Audit::measure_overlap(Index a, Index b) {
-  const RodFlight pair(needles_[a], needles_[b], nearest_image(approach_of(a, b, 0), 0), space_);
+  const Shift shift = nearest_image(approach_of(a, b, 0), 0);
+  const Needle second = image_of(b, shift, a);
+  const RodFlight pair(needles_[a], second, shift, space_);
   double& most = findings_.overlaps->at_collisions;
   most = std::max(most, pair.overlap_at(0));
 }
 
 void Audit::check_rods_apart(const Flown& flown) {
-  RodFlight pair(needles_[flown.first], needles_[flown.second], flown.encounter.shift, space_,
-                 slack_);
+  const Needle second = image_of(flown.second, flown.encounter.shift, flown.first);
+  RodFlight pair(needles_[flown.first], second, flown.encounter.shift, space_, slack_);
   const double last = flown.encounter.end;
   const double from = after_overlap(flown, pair);
   const bool leaves = from < last || flown.start.kind != Start::overlapping;
@@ -52,8 +54,8 @@ void Audit::check_rods_apart(const Flown& flown) {
 
 void Audit::check_rods_touching(const Flown& flown) {
   const double now = flown.duration;
-  RodFlight pair(needles_[flown.first], needles_[flown.second], flown.encounter.shift, space_,
-                 slack_);
+  const Needle second = image_of(flown.second, flown.encounter.shift, flown.first);
+  RodFlight pair(needles_[flown.first], second, flown.encounter.shift, space_, slack_);
   const auto differs = [&](Kind kind, double s) {
     report(kind, flown.first, flown.second, begin_of(flown.first, flown.second), s);
   };

@@ -160,7 +160,7 @@ const RodFlight::Motion<Quad>& RodFlight::in_quad() {
 
 double RodFlight::limit(double s) const {
   double lengths = distance_ + 2 * centres_ * std::abs(s), directors = 0;
-  bool renewed = norm(space_.gravity) > 0;
+  bool renewed = space_.rounds();
   for (std::size_t i = 0; i < 2; ++i) {
     const double age = delays_[i] + std::abs(s);
     const double extent = (i == 0 ? first_ : second_).body.extent();

@@ -118,13 +118,22 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
                                           Partner(second, now, space.gravity)};
   const auto& [a, b] = needles;
   // Records of needles that fall are renewed sooner.
-  const bool renewed = a.may_be_renewed() || b.may_be_renewed() || norm(space.gravity) > 0;
+  const bool renewed = a.may_be_renewed() || b.may_be_renewed() || space.rounds();
   bool right_image = true;
-  Vector3 r = a.r - b.r;
-  for (int axis = 0; axis < 3; ++axis) {
+  Vector3 r = a.r - b.r, past{};
+  const Rows::Slide slide = space.rows ? space.rows->at(now) : Rows::Slide{};
+  std::uint32_t slid = 0;  // whole boxes of the image's row
+  for (const int axis : {1, 0, 2}) {
     const Quad boxes = space.boxes_along<Quad>(axis, r[axis]);
     r[axis] -= Quad(space.box[axis]) * boxes;
-    right_image = right_image && boxes == collision.shift[axis];
+    const auto whole =
+        static_cast<std::int32_t>(boxes) - (axis == 0 ? static_cast<std::int32_t>(slid) : 0);
+    right_image = right_image && whole == collision.shift[axis];
+    if (axis == 1 && space.rows) {
+      r[0] -= boxes * slide.offset;
+      past[0] = boxes * space.rows->velocity();
+      slid = static_cast<std::uint32_t>(static_cast<std::int32_t>(boxes)) * slide.boxes;
+    }
   }
   const std::array<AuditedBody, 2> bodies = {first.body, second.body};
   const bool wide = first.body.diameter > 0;
@@ -138,7 +147,7 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
                                 std::min(bodies[0].length, bodies[1].length));
   const auto& [s12, s21, n, geometry, share] = contact;
   const Quad sine = norm(cross(a.u, b.u));
-  const Vector3 velocity = a.v - b.v + cross(a.w, a.u) * s12 - cross(b.w, b.u) * s21;
+  const Vector3 velocity = a.v - b.v - past + cross(a.w, a.u) * s12 - cross(b.w, b.u) * s21;
   // Of rods, the engine takes a velocity that rounding makes part them as 0.
   const Quad along_normal = dot(velocity, n);
   const Quad vn = wide && along_normal > 0 ? Quad(0) : along_normal;
@@ -200,15 +209,21 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
   for (int i = 0; i < 2; ++i) {
     const Partner& before = needles[i];
     const StateAfterCollision& after = collision.after[i];
-    Vector3 moved = before.r - to<Quad>(vector(after.position));
-    for (int axis = 0; axis < 3; ++axis) {
-      moved[axis] -= Quad(space.box[axis]) * space.boxes_along<Quad>(axis, moved[axis]);
+    Vector3 moved = before.r - to<Quad>(vector(after.position)), wrapped{};
+    for (const int axis : {1, 0, 2}) {
+      const Quad boxes = space.boxes_along<Quad>(axis, moved[axis]);
+      moved[axis] -= Quad(space.box[axis]) * boxes;
+      if (axis == 1 && space.rows) {
+        moved[0] -= boxes * slide.offset;
+        wrapped[0] = boxes * space.rows->velocity();
+      }
     }
     excess.add(difference(moved, {}), space.rounding() + 8 * unit * before.flown);
     excess.add(difference(before.u, after.orientation), 8 * unit * (2 + before.turned));
     // The velocity itself is rounded, too, however heavy the needle is.
     const double kicked = std::max(1.0, push * magnitude(inverse_mass[i]));
-    excess.add(difference(v_after[i], after.velocity), kicked * stiffness * share_after * speed);
+    excess.add(difference(v_after[i] - wrapped, after.velocity),
+               kicked * stiffness * share_after * speed);
     const AuditedBody& body = bodies[i];
     const double turning = body.length > 0 ? body.k / body.length : 0;
     excess.add(difference(w_after[i], after.angular_velocity),

@@ -101,6 +101,11 @@ class Box {
     if (slides_ && boxes[1] != 0) slide(boxes[0], boxes[1], out);
     return out;
   }
+  /// Boxes as files count them: along x as if the row above had slid by row_above().offset alone.
+  Shift counted_now(const Shift& shift) const {
+    if (!slides_) return shift;
+    return {static_cast<std::int32_t>(boxes_now(shift[0], shift[1])), shift[1], shift[2]};
+  }
   /// A centre less so many boxes, with one rounding.
   Vector less(const Vector& centre, const Boxes& boxes) const {
     const Vec3dd image = this->image<DoubleDouble>(boxes).place;
@@ -240,6 +245,10 @@ class Box {
 };
 
 /// The box at the instant of the state.
-inline Box box_of(const State& state) { return {state.box, state.periodic}; }
+inline Box box_of(const State& state) {
+  const Box box(state.box, state.periodic);
+  if (state.slide == 0 && state.shear_rate == 0) return box;
+  return box.with_rows({state.shear_rate * state.box[1], DoubleDouble(state.slide), 0});
+}
 
 }  // namespace needlework

@@ -50,6 +50,7 @@ audit::Setup setup_of(const Scene& scene, const AuditArguments& arguments, doubl
           .sliding = audit::sliding_of(scene),
           .walls = scene.walls,
           .gravity = scene.forces.gravity,
+          .shear = scene.shear,
           .driving = scene.driving,
           .scene_seed = scene.needles.seed,
           .share = arguments.share,

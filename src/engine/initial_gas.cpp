@@ -214,13 +214,52 @@ void set_gravity(Gas& gas, const Scene& scene) {
               along_periodic(gas.gravity.z, 2)};
 }
 
-void set_shear(Gas& gas, const Scene& scene) {
-  if (scene.shear) gas.shear.emplace(scene.shear->rate, gas.box.edges(), scene.shear->offset);
+void set_shear(Gas& gas, const Scene& scene, double slide) {
+  if (scene.shear) gas.shear.emplace(scene.shear->rate, gas.box.edges(), slide);
 }
+
+namespace {
+
+// The slide at the start, which scene or state may say, or both.
+double slide_of(const Scene& scene, const State& initial) {
+  const double given = scene.shear ? scene.shear->offset : 0, edge = initial.box[0];
+  if (!scene.shear && (initial.slide != 0 || initial.shear_rate != 0)) {
+    throw InputError(fmt::format(
+        "state: its rows of boxes have slid by {:.10g}, at a shear rate of {:.10g}: expected a "
+        "scene with [shear]",
+        initial.slide, initial.shear_rate));
+  }
+  if (!(initial.slide >= 0 && (initial.slide < edge || initial.slide == 0))) {
+    throw InputError(fmt::format("state: slide = {}: expected a length from 0 to below {:.10g}",
+                                 initial.slide, edge));
+  }
+  if (given != 0 && initial.slide != 0 && std::abs(given - initial.slide) > 1e-12 * edge) {
+    throw InputError(fmt::format("{}: expected {}, as in the state, or none",
+                                 place_of(scene, "shear.offset", fmt::to_string(given)),
+                                 initial.slide));
+  }
+  return initial.slide != 0 ? initial.slide : given;
+}
+
+// Velocities in the laboratory. Those of a state in another flow, or of one that says only these,
+// are those beside its flow and that of the scene.
+std::vector<std::array<double, 3>> velocities_of(const Gas& gas, const State& initial) {
+  const double rate = gas.shear ? gas.shear->rate() : 0;
+  const bool by_peculiar = initial.velocity.empty() && !initial.peculiar_velocity.empty();
+  const bool other_flow =
+      initial.shear_rate != 0 && std::abs(initial.shear_rate - rate) > 1e-12 * std::abs(rate);
+  auto out = by_peculiar ? initial.peculiar_velocity : initial.velocity;
+  if (out.size() != initial.size()) return out;
+  const double more = by_peculiar ? rate : other_flow ? rate - initial.shear_rate : 0;
+  if (more == 0) return out;
+  for (std::size_t i = 0; i < out.size(); ++i) out[i][0] += more * initial.position[i][1];
+  return out;
+}
+
+}  // namespace
 
 Gas make_gas(const Scene& scene, const State& initial) {
   const std::size_t count = initial.size();
-  check_size(initial.velocity.size(), count, "velocity");
   check_size(initial.orientation.size(), count, "orientation");
   check_size(initial.angular_velocity.size(), count, "angular velocity");
   if (!initial.image.empty()) check_size(initial.image.size(), count, "image");
@@ -228,7 +267,9 @@ Gas make_gas(const Scene& scene, const State& initial) {
   Gas gas;
   gas.box = Box(initial.box, scene.periodic());
   set_gravity(gas, scene);
-  set_shear(gas, scene);
+  set_shear(gas, scene, slide_of(scene, initial));
+  const auto velocities = velocities_of(gas, initial);
+  check_size(velocities.size(), count, "velocity");
   gas.set_composition(composition_of(scene, initial));
   const double length = gas.longest;
   const Room room(scene);
@@ -256,7 +297,7 @@ Gas make_gas(const Scene& scene, const State& initial) {
     const std::size_t from = order[i];
     kernels::Flight& flight = gas.records[i].flight;
     flight.r = vector_of(initial.position[from]);
-    flight.v = vector_of(initial.velocity[from]);
+    flight.v = vector_of(velocities[from]);
     flight.u = vector_of(initial.orientation[from]);
     flight.w = vector_of(initial.angular_velocity[from]);
     gas.ids[i] = {initial.id.empty() ? static_cast<std::uint32_t>(i) : initial.id[from]};

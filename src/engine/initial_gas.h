@@ -9,8 +9,9 @@ namespace needlework {
 
 /// Sets the gravity of the scene, of a gas whose box is set.
 void set_gravity(Gas& gas, const Scene& scene);
-/// Lets rows of boxes slide if the scene says so. To be called when the box is known.
-void set_shear(Gas& gas, const Scene& scene);
+/// Lets rows of boxes slide if the scene says so, from this slide on. To be called when the box is
+/// known. [L]
+void set_shear(Gas& gas, const Scene& scene, double slide);
 
 /// Makes the needles of a run from a state. Throws InputError for a state that cannot be
 /// simulated.

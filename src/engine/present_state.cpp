@@ -19,7 +19,10 @@ void copy_state(const Gas& gas, Time at, kernels::Isa isa, const std::vector<Nee
   const Box box = gas.box_at(at);
   out.box = box.edges();
   out.periodic = box.periodic();
+  out.slide = to_double(box.row_above().offset);
+  out.shear_rate = gas.shear ? gas.shear->rate() : 0;
   out.resize(gas.size());
+  out.peculiar_velocity.resize(gas.shear ? gas.size() : 0);
   out.species.resize(gas.composition.is_mixture() ? gas.size() : 0);
   // Few enough for the columns to stay in the first-level cache.
   constexpr std::size_t at_once = 64;
@@ -49,9 +52,13 @@ void copy_state(const Gas& gas, Time at, kernels::Isa isa, const std::vector<Nee
       out.id[row] = gas.ids[i].value;
       if (!out.species.empty()) out.species[row] = gas.records[i].species;
       out.position[row] = place;
-      out.image[row] = gas.images[i] + shift_of(boxes);  // see most_boxes
+      out.image[row] = box.counted_now(gas.images[i] + shift_of(boxes));  // see most_boxes
       const Vec3d velocity = slides ? sliding.v : gas.motion(gas.records[i]).velocity(elapsed);
       out.velocity[row] = to_array(velocity - box.image(boxes).velocity);
+      if (gas.shear) {
+        const Vec3d centre = gas.motion(gas.records[i]).centre(elapsed);
+        out.peculiar_velocity[row] = to_array(velocity - gas.flow_at(centre));
+      }
       out.orientation[row] = to_array(just_now ? flight.u : normalised(flights.director(n)));
       out.angular_velocity[row] = to_array(flight.w);
       if (!slides) continue;

@@ -77,7 +77,7 @@ std::vector<double> physics_of(const Run& run, const Scene& scene) {
     out.insert(out.end(), parameters.begin(), parameters.end());
   };
   if (run.effects.stress) add({1});
-  if (run.gas.shear) add({run.gas.shear->velocity(), run.gas.shear->start()});
+  if (run.gas.shear) add({run.gas.shear->velocity()});
   if (run.gas.falls) add({run.gas.gravity.x, run.gas.gravity.y, run.gas.gravity.z});
   for (const auto& source : run.sources) add(source->parameters());
   if (run.kicks) add(run.kicks->parameters());
@@ -291,6 +291,10 @@ Checkpoint Run::save(const Scene& scene, const std::vector<Needle>& by_id) {
   std::vector<double> physics = physics_of(*this, scene);
   std::uint64_t count = gas.size();
   archive(physics, count);
+  if (gas.shear) {
+    double slide = gas.shear->start();
+    archive(slide);
+  }
   transfer(archive, by_id);
   return out;
 }
@@ -302,7 +306,12 @@ Run::Run(const Scene& scene, const Checkpoint& saved) : Run(scene) {
   archive(physics, count);
   gas.box = box_of(scene);
   set_gravity(gas, scene);
-  set_shear(gas, scene);
+  if (scene.shear) {
+    double slide;
+    archive(slide);
+    require(slide >= 0 && slide <= gas.box.edge(0));
+    set_shear(gas, scene, slide);
+  }
   add_effects(scene);
   if (physics != physics_of(*this, scene)) {
     throw InputError(

@@ -233,6 +233,18 @@ std::vector<Description> wall_descriptions() {
            "Rectangular box, which is periodic along the axes without walls", none, none}};
 }
 
+std::vector<Description> shear_descriptions() {
+  return {{"/particles/needles/box",
+           "Box whose rows of images slide along x; shear_rate is that of the flow, rate * y", none,
+           none},
+          {"/particles/needles/box/edges",
+           "Edge vectors of the box as the rows of a matrix; the second has the slide of the row "
+           "of boxes above along x",
+           length, "[frames][3][3]"},
+          {"/particles/needles/peculiar_velocity",
+           "Velocity of each needle beside the uniform flow", speed, "[frames][needles][3]"}};
+}
+
 std::vector<Description> rod_descriptions(bool of_each_species) {
   const std::string shape = of_each_species ? "[species]" : "scalar";
   return {

@@ -29,6 +29,7 @@ std::vector<Description> mixture_descriptions();
 std::vector<Description> rod_descriptions(bool of_each_species);  ///< of rods of finite width
 std::vector<Description> event_kind_descriptions();               ///< where events have kinds
 std::vector<Description> wall_descriptions();                     ///< where there are walls
+std::vector<Description> shear_descriptions();                    ///< of uniform shear
 std::vector<Description> series_descriptions(                     ///< and their groups in /series
     const std::vector<SeriesGroup>& groups);
 std::vector<Description> sweep_summary_descriptions();  ///< files of sweep::write_summary

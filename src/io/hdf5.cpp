@@ -372,6 +372,15 @@ void write_attribute(hid_t object, const std::string& name, std::span<const std:
   check(H5Awrite(attribute.get(), type.get(), bytes.data()), place);
 }
 
+void write_attribute(hid_t object, const std::string& name, double value,
+                     const std::string& place) {
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, place);
+  const Handle attribute(
+      H5Acreate2(object, name.c_str(), type_of<double>(), space.get(), H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose, place);
+  check(H5Awrite(attribute.get(), type_of<double>(), &value), place);
+}
+
 void write_attribute(hid_t object, const std::string& name, std::span<const std::int32_t> values,
                      const Shape& dimensions, const std::string& place) {
   const hid_t space_id = dimensions.empty() ? H5Screate(H5S_SCALAR)

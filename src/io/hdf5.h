@@ -144,6 +144,9 @@ void write_attribute(hid_t object, const std::string& name, std::span<const std:
 void write_attribute(hid_t object, const std::string& name, std::span<const std::int32_t> values,
                      const Shape& dimensions, const std::string& place);
 
+/// Writes an attribute that is one number.
+void write_attribute(hid_t object, const std::string& name, double value, const std::string& place);
+
 /// Writes an attribute that is one variable-length UTF-8 string.
 void write_text_attribute(hid_t object, const std::string& name, const std::string& text,
                           const std::string& place);

@@ -85,13 +85,14 @@ void make_fields(hid_t series, const StepAndTime& shared, const std::vector<Seri
   }
 }
 
-Handle make_box(hid_t needles, const std::array<bool, 3>& periodic, const std::string& place) {
+Handle make_box(hid_t needles, const Scene& scene, const std::string& place) {
   Handle box = create_group(needles, "box", place);
   const std::int32_t dimension = 3;
   hdf5::write_attribute(box.get(), "dimension", std::span(&dimension, 1), {}, place);
   std::vector<std::string> boundary;
-  for (const bool axis : periodic) boundary.emplace_back(axis ? "periodic" : "none");
+  for (const bool axis : scene.periodic()) boundary.emplace_back(axis ? "periodic" : "none");
   hdf5::write_attribute(box.get(), "boundary", boundary, place);
+  if (scene.shear) hdf5::write_attribute(box.get(), "shear_rate", scene.shear->rate, place);
   return box;
 }
 
@@ -108,8 +109,10 @@ StepAndTime make_needles(hid_t group, const Scene& scene, std::vector<std::uint8
   for (const char* name : {"velocity", "orientation", "angular_velocity"}) {
     make_element(group, name, shared, type_of<double>(), row, rows, place);
   }
+  if (scene.shear)
+    make_element(group, "peculiar_velocity", shared, type_of<double>(), row, rows, place);
   // MDAnalysis reads the edges only if they are a matrix.
-  const Handle box = make_box(group, scene.periodic(), place);
+  const Handle box = make_box(group, scene, place);
   make_element(box.get(), "edges", shared, type_of<double>(), {3, 3}, 64, place);
 
   std::vector<std::uint32_t> ids(count);
@@ -267,6 +270,7 @@ void make_layout(hid_t file, const Scene& scene, const RunInfo& run, const std::
     write_descriptions(file, rod_descriptions(composition.is_mixture()), place);
   if (composition.is_mixture()) write_descriptions(file, mixture_descriptions(), place);
   if (!scene.walls.empty()) write_descriptions(file, wall_descriptions(), place);
+  if (scene.shear) write_descriptions(file, shear_descriptions(), place);
   if (run.has_kinds) write_descriptions(file, event_kind_descriptions(), place);
   write_descriptions(file, run_file_descriptions(), place);
   write_descriptions(file, series_descriptions(run.series), place);

@@ -26,10 +26,10 @@ static void transfer(Archive& archive, Bodies& bodies) {
 }
 
 static void transfer(Archive& archive, State& state) {
-  auto& [box, periodic, position, velocity, orientation, angular_velocity, image, id, species,
-         bodies] = state;
-  archive(box, periodic, position, velocity, orientation, angular_velocity, image, id, species,
-          bodies);
+  auto& [box, periodic, slide, shear_rate, position, velocity, peculiar_velocity, orientation,
+         angular_velocity, image, id, species, bodies] = state;
+  archive(box, periodic, slide, shear_rate, position, velocity, peculiar_velocity, orientation,
+          angular_velocity, image, id, species, bodies);
 }
 
 }  // namespace needlework
@@ -80,9 +80,10 @@ class FrameReader {
   }
 
   std::array<bool, 3> read_periodic() const;
-  Vector read_box();
+  Vector read_box(double& slide);
   bool has_row_a_frame(const Element& edges) const;
-  Vector diagonal(const Slice& edges) const;
+  Vector diagonal(const Slice& edges, double& slide) const;
+  double read_shear_rate() const;
   std::vector<Vector> read_vectors(const std::string& name);
   std::vector<std::array<std::int32_t, 3>> read_images();
   std::vector<double> read_numbers(const std::string& name, double largest, const char* expected);
@@ -137,8 +138,9 @@ State FrameReader::read(std::size_t frame) {
   }
   frame_ = frame;
   State state;
-  state.box = read_box();
+  state.box = read_box(state.slide);
   state.periodic = read_periodic();
+  state.shear_rate = read_shear_rate();
   state.position = read_vectors("position");
   state.velocity = read_vectors("velocity");
   state.orientation = read_vectors("orientation");
@@ -172,7 +174,24 @@ std::array<bool, 3> FrameReader::read_periodic() const {
   return periodic;
 }
 
-Vector FrameReader::read_box() {
+// 0 for a file without one.
+double FrameReader::read_shear_rate() const {
+  const std::string path = group_ + "/box";
+  const std::string where = source_.place(path);
+  const hdf5::Handle box = hdf5::open_group(source_.get(), path, where);
+  if (hdf5::check(H5Aexists(box.get(), "shear_rate"), where) == 0) return 0;
+  const hdf5::Handle attribute(H5Aopen(box.get(), "shear_rate", H5P_DEFAULT), H5Aclose, where);
+  const hdf5::Handle space(H5Aget_space(attribute.get()), H5Sclose, where);
+  const auto numbers = H5Sget_simple_extent_npoints(space.get());
+  if (numbers != 1) reject(where, fmt::format(": shear_rate of {} numbers: expected one", numbers));
+  double rate = 0;
+  hdf5::check(H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &rate), where);
+  if (!std::isfinite(rate))
+    reject(where, fmt::format(": shear_rate = {}: expected a finite number", rate));
+  return rate;
+}
+
+Vector FrameReader::read_box(double& slide) {
   const Element& edges = element("box/edges");
   const Shape& shape = edges.shape();
   const std::size_t rank = shape.size();
@@ -186,13 +205,13 @@ Vector FrameReader::read_box() {
     const auto values = edges.read<double>({});
     std::copy_n(values.begin(), 3, box.begin());
   } else if (rank == 3) {
-    box = diagonal(slice(edges, 2));
+    box = diagonal(slice(edges, 2), slide);
   } else {
     if (has_row_a_frame(edges)) {
       const auto values = edges.read<double>(*slice(edges, 1).frame);
       std::copy_n(values.begin(), 3, box.begin());
     } else {
-      box = diagonal({&edges, {}});
+      box = diagonal({&edges, {}}, slide);
     }
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -217,14 +236,21 @@ bool FrameReader::has_row_a_frame(const Element& edges) const {
                               std::equal(first.begin(), first.end(), values.begin() + 6));
 }
 
-Vector FrameReader::diagonal(const Slice& edges) const {
+// The edges of a box, of which the one along y may be tilted along x: `slide`.
+Vector FrameReader::diagonal(const Slice& edges, double& slide) const {
   const auto matrix = edges.element->read<double>(edges.frame);
   Vector box{};
   for (std::size_t i = 0; i < 9; ++i) {
     if (i % 4 == 0) {
       box[i / 4] = matrix[i];
+    } else if (i == 3) {
+      if (!std::isfinite(matrix[i]))
+        reject(place(*edges.element),
+               fmt::format("{}[1] = {}: expected a finite number", edges.index(0), matrix[i]));
+      slide = matrix[i] - std::floor(matrix[i] / matrix[0]) * matrix[0];
     } else if (matrix[i] != 0) {
-      reject(place(*edges.element), fmt::format("{}[{}] = {}: expected 0, a rectangular box",
+      reject(place(*edges.element), fmt::format("{}[{}] = {}: expected 0, a box that is "
+                                                "rectangular or tilted along x by y",
                                                 edges.index(i / 3), i % 3, matrix[i]));
     }
   }

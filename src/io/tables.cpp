@@ -106,6 +106,9 @@ Frames::Frames(hid_t file, const std::string& place, std::uint64_t rows)
       velocity_(file, "/particles/needles/velocity/value", place),
       orientation_(file, "/particles/needles/orientation/value", place),
       angular_velocity_(file, "/particles/needles/angular_velocity/value", place) {
+  constexpr const char* peculiar = "/particles/needles/peculiar_velocity";
+  if (check(H5Lexists(file, peculiar, H5P_DEFAULT), place) > 0)
+    peculiar_velocity_.emplace(file, std::string(peculiar) + "/value", place);
   if (needles_ == 0) return;
   check(H5Dread(id_.get(), type_of<std::uint32_t>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, ids_.data()),
         place_);
@@ -114,8 +117,8 @@ Frames::Frames(hid_t file, const std::string& place, std::uint64_t rows)
 void Frames::append(const State& state) {
   const auto fits = [&](const auto& array) { return array.size() == needles_; };
   if (!fits(state.position) || !fits(state.velocity) || !fits(state.orientation) ||
-      !fits(state.angular_velocity) || !(state.image.empty() || fits(state.image)) ||
-      !(state.id.empty() || fits(state.id))) {
+      !fits(state.angular_velocity) || (peculiar_velocity_ && !fits(state.peculiar_velocity)) ||
+      !(state.image.empty() || fits(state.image)) || !(state.id.empty() || fits(state.id))) {
     throw std::invalid_argument(fmt::format("{}: a frame of {} needles: expected {} in each array",
                                             place_, state.size(), needles_));
   }
@@ -129,6 +132,7 @@ void Frames::append(const State& state) {
   };
   append_frame(position_, state.position);
   append_frame(velocity_, state.velocity);
+  if (peculiar_velocity_) append_frame(*peculiar_velocity_, state.peculiar_velocity);
   append_frame(orientation_, state.orientation);
   append_frame(angular_velocity_, state.angular_velocity);
   if (state.image.empty()) {

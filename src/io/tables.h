@@ -86,6 +86,7 @@ class Frames {
   std::vector<std::uint32_t> ids_;
   bool ids_written_;
   Column edges_, position_, image_, velocity_, orientation_, angular_velocity_;
+  std::optional<Column> peculiar_velocity_;  ///< in a uniform flow
 };
 
 /// A change of all velocities by a caller.

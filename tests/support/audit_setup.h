@@ -16,6 +16,7 @@ inline audit::Setup audit_setup(const Scene& scene, double epoch_length, double 
   setup.sliding = audit::sliding_of(scene);
   setup.walls = scene.walls;
   setup.gravity = scene.forces.gravity;
+  setup.shear = scene.shear;
   setup.driving = scene.driving;
   setup.scene_seed = scene.needles.seed;
   setup.share = share;

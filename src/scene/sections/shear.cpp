@@ -1,6 +1,10 @@
 // [shear]: uniform shear.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+
+#include "src/scene/observable_names.h"
 #include "src/scene/read_value.h"
 #include "src/scene/sections/sections.h"
 
@@ -62,6 +66,21 @@ std::optional<Violation> threads_know_no_rows(const Scene& scene) {
                    .reason = "expected 1 beside [shear]"};
 }
 
+// Those that follow paths, or compare places across the edges.
+std::optional<Violation> observables_know_no_rows(const Scene& scene) {
+  if (!scene.shear) return {};
+  for (const std::string& name : scene.output.observables) {
+    if (std::ranges::find(rectangular_observable_names, name) == rectangular_observable_names.end())
+      continue;
+    return Violation{.key = "output.observables",
+                     .value = in_quotes(name),
+                     .reason = fmt::format("expected none of {} beside [shear]: they are for boxes "
+                                           "whose images stay where they are",
+                                           fmt::join(rectangular_observable_names, ", "))};
+  }
+  return {};
+}
+
 std::optional<Violation> offset_is_beyond_the_edge(const Scene& scene) {
   if (!scene.shear || scene.shear->offset < scene.needles.box[0] || scene.shear->offset == 0)
     return {};
@@ -94,6 +113,7 @@ SceneSection shear_section() {
                 {Aspect::effects, contacts_slide},
                 {Aspect::effects, search_knows_no_rows},
                 {Aspect::effects, threads_know_no_rows},
+                {Aspect::output, observables_know_no_rows},
                 {Aspect::room, offset_is_beyond_the_edge}},
   };
 }
