@@ -240,6 +240,8 @@ class Simulation(NotPickled):
         to the directors counts [1 / time]. Positions and directors need each other; velocities are
         0 if they are not given. The scene then needs no needles.count, and temperatures in it are
         an error.
+    peculiar_velocity : array [N, 3], optional
+        Velocities beside the flow of [shear], in place of velocity [L / time].
     species : array [N] of whole numbers, optional
         Which of the scene's species each needle is of, from 0 in their order. Counts of the
         scene, where given, must agree. If it is not given, ids go through the species in their
@@ -247,6 +249,9 @@ class Simulation(NotPickled):
     bodies : mapping, optional
         What the species are made of: length, diameter, mass and k of each, and name. It is taken
         where the scene is silent; what the scene says otherwise is an error.
+    flow : mapping, optional
+        What a sheared state says of its box: slide, of the row of boxes above [L], and shear_rate
+        [1 / time]. Velocities beside the flow are kept where the scene has another rate.
     image : array [N, 3] of whole numbers, optional
         Boxes crossed by these needles before, from which their images go on; 0 if not given.
     id : array [N] of whole numbers, optional
@@ -280,10 +285,19 @@ class Simulation(NotPickled):
                  velocity: ArrayLike | None = None, orientation: ArrayLike | None = None,
                  angular_velocity: ArrayLike | None = None, image: ArrayLike | None = None,
                  id: ArrayLike | None = None, species: ArrayLike | None = None,
-                 bodies: Mapping[str, ArrayLike] | None = None, force: bool = False) -> None:
+                 bodies: Mapping[str, ArrayLike] | None = None, force: bool = False,
+                 peculiar_velocity: ArrayLike | None = None,
+                 flow: Mapping[str, float] | None = None) -> None:
         text, name, has_lines = scene_text(scene)
-        state = _state({"position": position, "velocity": velocity, "orientation": orientation,
-                        "angular_velocity": angular_velocity}, image, id, species, bodies)
+        if velocity is not None and peculiar_velocity is not None:
+            raise InputError("velocity and peculiar_velocity: expected one of them")
+        beside_flow = peculiar_velocity is not None
+        state = _state({"position": position,
+                        "velocity": peculiar_velocity if beside_flow else velocity,
+                        "orientation": orientation, "angular_velocity": angular_velocity},
+                       image, id, species, bodies)
+        if state is not None:
+            state = (*state, beside_flow, *_flow(flow or {}))
         self._run = _core.Run(text, os.fsencode(name), has_lines, state, bool(force))
         for message in self._run.warnings():
             warnings.warn(message, SceneWarning, stacklevel=2)
@@ -486,7 +500,8 @@ class Simulation(NotPickled):
         """All needles: the arrays position, velocity, orientation, angular_velocity, image, id and
         species by name, from which ``Simulation(scene, **state)`` starts."""
         if self._copy is None:
-            self._copy = State.of(self._run.state(), Bodies.of(self._facts.bodies))
+            self._copy = State.of(self._run.state(), Bodies.of(self._facts.bodies),
+                                  self._run.flow())
         return self._copy
 
     @property
@@ -499,6 +514,12 @@ class Simulation(NotPickled):
     def velocity(self) -> np.ndarray:
         """Velocities of the centres, [N, 3] [L / time]."""
         return self.state.velocity
+
+    @property
+    def peculiar_velocity(self) -> np.ndarray:
+        """Velocities beside the uniform flow of [shear], [N, 3] [L / time]."""
+        flow = self._run.flow()
+        return self.velocity if flow is None else flow[2]
 
     @property
     def orientation(self) -> np.ndarray:
@@ -717,6 +738,16 @@ def _state(arrays: dict[str, ArrayLike | None], image: ArrayLike | None, ids: Ar
             None if species is None else
             whole_numbers("species", species, (count,), 0, 254).astype(np.uint8),
             _columns_of(bodies or {}))
+
+
+def _flow(flow: Mapping[str, float]) -> tuple[float, float]:
+    unknown = set(flow) - {"slide", "shear_rate"}
+    if unknown:
+        raise InputError(f"flow: {', '.join(sorted(unknown))}: expected slide and shear_rate")
+    try:
+        return float(flow.get("slide", 0)), float(flow.get("shear_rate", 0))
+    except (TypeError, ValueError):
+        raise InputError("flow: expected numbers") from None
 
 
 def _columns_of(bodies: Mapping[str, ArrayLike]) -> tuple[list, ...]:

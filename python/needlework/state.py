@@ -56,9 +56,13 @@ class State(Table):
     """What the species are made of, which another scene must not contradict."""
 
     @classmethod
-    def of(cls, arrays: Iterable[np.ndarray], bodies: Bodies) -> State:
-        """The state of these arrays, in the order of ARRAYS."""
-        return cls({**dict(zip(ARRAYS, arrays)), "bodies": bodies})
+    def of(cls, arrays: Iterable[np.ndarray], bodies: Bodies,
+           flow: tuple[float, float, np.ndarray] | None = None) -> State:
+        """The state of these arrays, in the order of ARRAYS; `flow` under uniform shear."""
+        values = {**dict(zip(ARRAYS, arrays)), "bodies": bodies}
+        if flow is not None:
+            values["flow"] = {"slide": flow[0], "shear_rate": flow[1]}
+        return cls(values)
 
     # The items are the arrays, one row for each needle. keys() names the bodies, too, so that
     # ``**state`` hands them over.

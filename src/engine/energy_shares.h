@@ -62,7 +62,7 @@ class EnergyShares {
 
   /// For a gas with so many sources and objects of them.
   template <class A>
-  void transfer(A& archive, std::size_t sources, std::size_t objects, bool flows) {
+  void transfer(A& archive, std::size_t sources, std::size_t objects, bool flows = false) {
     pass(archive, pairs_);
     if (flows) pass(archive, flow_);
     for (DoubleDouble* each : {&kicks_, &set_}) pass(archive, *each);

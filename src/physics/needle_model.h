@@ -25,6 +25,8 @@ class NeedleModel {
     if (Law::turns == effects.spheres) return false;
     if (effects.rough && !Law::may_be_rough) return false;
     if (effects.contact_time && has_sliding) return false;  // both replace the same bounces
+    // Contacts that last are of images at rest, and carry momentum besides flights and collisions.
+    if (has_sliding && (effects.shear || effects.stress)) return false;
     return has_effects || !effects.any();
   }
 

@@ -19,14 +19,16 @@ using namespace pybind11::literals;
 using OptionalNumber = std::optional<double>;
 
 /// Position, velocity, orientation and angular velocity, [N][3] each; images, [N][3], ids and
-/// species, [N], which may be absent; and bodies.
+/// species, [N], which may be absent; bodies; the velocities, if they are beside the flow of the
+/// scene; and the slide of rows of boxes and the rate of the state's flow.
 using Images = std::optional<py::array_t<std::int32_t, py::array::c_style>>;
 using Ids = std::optional<py::array_t<std::uint32_t, py::array::c_style>>;
 using SpeciesIndices = std::optional<py::array_t<std::uint8_t, py::array::c_style>>;
 /// Names, length, diameter, mass and k of each species, empty where they are not known.
 using Numbers = std::vector<double>;
 using BodyColumns = std::tuple<std::vector<std::string>, Numbers, Numbers, Numbers, Numbers>;
-using Arrays = std::tuple<Rows, Rows, Rows, Rows, Images, Ids, SpeciesIndices, BodyColumns>;
+using Arrays = std::tuple<Rows, Rows, Rows, Rows, Images, Ids, SpeciesIndices, BodyColumns,
+                          bool, double, double>;
 
 State state_of(const Arrays& arrays) {
   State state;
@@ -41,6 +43,9 @@ State state_of(const Arrays& arrays) {
   }
   auto& [names, length, diameter, mass, k] = state.bodies;
   std::tie(names, length, diameter, mass, k) = std::get<7>(arrays);
+  if (std::get<8>(arrays)) state.velocity.swap(state.peculiar_velocity);
+  state.slide = std::get<9>(arrays);
+  state.shear_rate = std::get<10>(arrays);
   return state;
 }
 
@@ -98,6 +103,7 @@ void add_run(py::module_& module) {
       .def("rod_totals", &Run::rod_totals)
       .def("sliding_contacts", &Run::sliding_contacts)
       .def("stress", &Run::stress)
+      .def("flow", &Run::flow)
       .def("counters", &Run::counters)
       .def("facts", &Run::facts)
       .def("time", &Run::time)

@@ -357,6 +357,16 @@ py::object Run::sliding_contacts() {
   return contacts ? py::object(numbers_of(*contacts)) : py::none();
 }
 
+py::object Run::flow() {
+  State state;
+  work([&] {
+    if (run_->scene().shear) run_->simulation().copy(state);
+  });
+  if (state.peculiar_velocity.empty() && state.shear_rate == 0 && state.slide == 0)
+    return py::none();
+  return py::make_tuple(state.slide, state.shear_rate, read_only(state.peculiar_velocity));
+}
+
 py::object Run::stress() {
   require_idle();
   const auto stress = run_->simulation().stress();

@@ -72,6 +72,8 @@ class Run {
   pybind11::dict rod_totals();
   pybind11::object sliding_contacts();
   pybind11::object stress();
+  /// Under uniform shear: slide, rate, and velocities beside the flow; else None.
+  pybind11::object flow();
   pybind11::dict counters();
   /// The scene, which does not change, and the parts of the engine in use.
   pybind11::dict facts();

@@ -32,14 +32,16 @@ TEST(ModelChoice, LeavesNoEffectOut) {
   EXPECT_EQ(model_of({}), "plain");
   bool Effects::*const all[] = {&Effects::rough,   &Effects::contact_time, &Effects::table,
                                 &Effects::width,   &Effects::spheres,      &Effects::sliding,
-                                &Effects::sources, &Effects::kicks,        &Effects::gravity};
+                                &Effects::sources, &Effects::kicks,        &Effects::gravity,
+                                &Effects::shear,   &Effects::stress};
   static_assert(sizeof(Effects) == sizeof all / sizeof all[0], "an effect is missing above");
   for (unsigned set = 1; set < 1u << std::size(all); ++set) {
     Effects effects;
     for (std::size_t n = 0; n < std::size(all); ++n) effects.*all[n] = (set >> n & 1u) != 0;
     const bool impossible = (effects.spheres && !effects.width) ||
                             (effects.width && (effects.rough || effects.sliding)) ||
-                            (effects.sliding && (effects.rough || effects.contact_time));
+                            (effects.sliding && (effects.rough || effects.contact_time ||
+                                                 effects.shear || effects.stress));
     const std::string expected = impossible        ? "none"
                                  : effects.spheres ? "spheres"
                                  : effects.width   ? "rods"
