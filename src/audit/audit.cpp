@@ -126,7 +126,7 @@ Audit::Audit(const State& initial, const Setup& setup)
       ids_(initial.id),
       needles_(needles_of(initial, {}, bodies_, setup.epoch_length, unit_)),
       walls_(walls_of(setup.walls, space_.box, setup.epoch_length, unit_)),
-      windows_(beside_flow(needles_), bodies_, space_.box[0] * space_.box[1] * space_.box[2],
+      windows_(beside_flow(needles_, {}), bodies_, space_.box[0] * space_.box[1] * space_.box[2],
                setup.driving.kicks ? setup.driving.kicks->every / setup.epoch_length : HUGE_VAL),
       initial_energy_(energy()) {
   if (setup.shear && (!setup.walls.empty() || norm(space_.gravity) > 0 || setup.driving.kicks ||
@@ -182,9 +182,9 @@ Needle Audit::image_of(Index second, const Shift& shift, Index first) const {
   return space_.rows ? space_.rows->image(needle, shift[1], begin_of(first, second)) : needle;
 }
 
-std::vector<Needle> Audit::beside_flow(std::vector<Needle> needles) const {
+std::vector<Needle> Audit::beside_flow(std::vector<Needle> needles, const Instant& now) const {
   if (!space_.rows) return needles;
-  for (Needle& each : needles) each = space_.rows->beside_flow(each);
+  for (Needle& each : needles) each = space_.rows->beside_flow(each, now);
   return needles;
 }
 
@@ -278,7 +278,7 @@ void Audit::add(const Happening& reported) {
 
 void Audit::advance_windows(const Instant& now) {
   if (!setup_.tc_relative && !setup_.sliding) return;
-  windows_.advance(now, [&](const Instant& end) { return beside_flow(present(end)); });
+  windows_.advance(now, [&](const Instant& end) { return beside_flow(present(end), end); });
 }
 
 void Audit::note_in_fingerprint(std::uint64_t word) { fingerprint_ = mixed(fingerprint_ ^ word); }

@@ -219,7 +219,7 @@ class Audit {
   Approach approach_of(Index i, Index j, double duration) const;
   Needle image_of(Index second, const Shift& shift, Index first) const;
   /// With velocities beside the flow of a sheared gas.
-  std::vector<Needle> beside_flow(std::vector<Needle> needles) const;
+  std::vector<Needle> beside_flow(std::vector<Needle> needles, const Instant& now) const;
   Shift nearest_image(const Approach& approach, double s) const;  ///< at this time of a flight
   void check_order(const Instant& now, const Happening& happening);
   void check_pair(const Instant& now, const Collision& collision,

@@ -44,14 +44,14 @@ bool Audit::is_inside(const Needle& needle) const {
 }
 
 // With the potential energy, which a flight keeps. Heights count from the edges to which gravity
-// points. Along periodic axes there is none, and no end depends on the energy.
+// points. Along periodic axes there is none, and no end depends on the energy; so in uniform shear.
 double Audit::energy() const {
   Vector<double> lowest{}, weight = space_.gravity;
   for (int axis = 0; axis < 3; ++axis) {
     if (space_.periodic[static_cast<std::size_t>(axis)]) weight[axis] = 0;
     if (weight[axis] > 0) lowest[axis] = space_.box[static_cast<std::size_t>(axis)];
   }
-  long double sum = energy_of(beside_flow(needles_));
+  long double sum = energy_of(needles_);
   for (const Needle& needle : needles_) {
     sum += needle.body.mass * dot(weight, lowest - needle.record.r);
   }
@@ -111,7 +111,7 @@ void Audit::check_start(const Scene& scene, const State* given) {
     // together have exactly the energies of all of them.
     const double speed = setup_.epoch_length / unit_, scale = speed * speed;
     double t_tr = 0, t_rot = 0, found_tr = 0, found_rot = 0;
-    const std::vector<Needle> needles = beside_flow(needles_);
+    const std::vector<Needle> needles = beside_flow(needles_, {});
     const auto found = temperatures_of(needles, bodies_);
     for (std::size_t index = 0; index < bodies_.size(); ++index) {
       const Species& species = composition[index];

@@ -44,11 +44,11 @@ class Rows {
     out.worn = needle.worn;
     return out;
   }
-  /// The same needle, with its velocity beside the flow.
+  /// The same needle, with the velocity that it has beside the flow then.
   template <class Needle>
-  Needle beside_flow(const Needle& needle) const {
+  Needle beside_flow(const Needle& needle, const Instant& now) const {
     auto record = needle.record;
-    record.v[0] -= flow(record.r[1]);
+    record.v[0] -= flow(record.r[1] + record.v[1] * elapsed<double>(record.time, now).middle);
     return Needle(record, needle.body);
   }
 

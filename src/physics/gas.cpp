@@ -51,6 +51,13 @@ namespace {
   pair.fall = pair.fall ? kernels::Fall{pair.fall->velocity + its.velocity, its.place} : its;
 }
 
+// An image that flies past, of a needle that does not fall.
+[[gnu::noinline]] void slide(kernels::Pair& pair, const Gas& gas, Time start, const Shift& shift) {
+  const Image<DoubleDouble> image = gas.box_at(start).image<DoubleDouble>(shift);
+  pair.shift = image.place;
+  if (image.velocity.x != 0) pair.fall = {-to_double_double(image.velocity), {}};
+}
+
 [[noreturn, gnu::cold]] void refuse_boxes(Id id) {
   throw InvalidStateError("needle " + std::to_string(id.value) + " crosses more than " +
                               std::to_string(most_boxes) +
@@ -81,9 +88,10 @@ kernels::Pair make_pair(const Gas& gas, Needle a, const Record& record_a, Needle
   if (record_b.time != start)
     pair.elapsed_second = gas.clock.exact_difference(start, record_b.time);
   if (!same(shift, Shift{})) {
-    const Image<DoubleDouble> image = gas.box_at(start).image<DoubleDouble>(shift);
-    pair.shift = image.place;
-    if (image.velocity.x != 0) pair.fall = {-to_double_double(image.velocity), {}};
+    if (gas.shear)
+      slide(pair, gas, start, shift);
+    else
+      pair.shift = gas.box.image<DoubleDouble>(shift).place;
   }
   pair.touch_within = gas.touch_tolerance();
   if (gas.falls) {
@@ -163,7 +171,8 @@ kernels::BodyState Gas::present(Id id, const Record& record, Time now) const {
 
 Shift renew_record(Gas& gas, Needle i, Time now, const kernels::BodyState& state, double extent) {
   Record& record = gas.records[i];
-  const Box box = gas.box_at(now);
+  std::optional<Box> room;
+  const Box& box = gas.box_at(now, room);
   const auto [place, boxes] = box.wrap(to_array(state.r));
   gas.images[i] = add_boxes(gas, i, boxes);
   record.flight.r = vector_of(place);

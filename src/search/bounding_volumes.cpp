@@ -94,23 +94,32 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
 
 bool BoundingVolumes::place(Needle i, Time now, double half_length) {
   make_fit(now);
+  if (rows) return place_in_row(i, now, half_length);
   return frame.falls ? place_one<true>(i, now, half_length) : place_one<false>(i, now, half_length);
 }
 
 template <bool falls>
 inline bool BoundingVolumes::place_one(Needle i, Time now, double half_length) {
   const Record& record = gas.records[i];
+  return place_flight<falls>(i, record.flight, gas.clock.difference(now, record.time), now,
+                             half_length);
+}
+
+[[gnu::noinline]] bool BoundingVolumes::place_in_row(Needle i, Time now, double half_length) {
+  const Record& record = gas.records[i];
   const double elapsed = gas.clock.difference(now, record.time);
-  if (!rows) return place_flight<falls>(i, record.flight, elapsed, now, half_length);
   rows->set_now(now);
   const SlidingRows::Seen seen = rows->see(record, elapsed);
   wraps[i] = seen.boxes;
-  return place_flight<falls>(i, seen.flight, elapsed, now, half_length);
+  return frame.falls ? place_flight<true>(i, seen.flight, elapsed, now, half_length)
+                     : place_flight<false>(i, seen.flight, elapsed, now, half_length);
 }
 
 template <bool falls>
-inline bool BoundingVolumes::place_flight(Needle i, const kernels::Flight& flight, double elapsed,
-                                          Time now, double half_length) {
+[[gnu::always_inline]] inline bool BoundingVolumes::place_flight(Needle i,
+                                                                 const kernels::Flight& flight,
+                                                                 double elapsed, Time now,
+                                                                 double half_length) {
   const MotionFrom<FreeFlight> motion{frame.flight_of<falls>(flight), elapsed};
   const Vec3d centre = motion.centre();
   const MotionFrame::Path path = frame.path_of<falls>(centre, motion.velocity(), now);
@@ -226,9 +235,10 @@ bool BoundingVolumes::enter(ClassCells& own, Needle i, const Cell& cell) {
   return entered;
 }
 
-Shift BoundingVolumes::boxes_between_rows(Needle i, Needle j, const Cell& seen, Shift shift) const {
-  shift[0] = (shift + Shift{rows->beside(places[i].cell[1], seen[1]).boxes, 0, 0})[0];
-  return shift + wraps[i] - wraps[j];
+Shift BoundingVolumes::boxes_between_rows(Needle i, Needle j, const Cell& seen,
+                                          const Shift& shift) const {
+  const std::int32_t slid = rows->beside(places[i].cell[1], seen[1]).boxes;
+  return shift + Shift{slid, 0, 0} + wraps[i] - wraps[j];
 }
 
 // What contains the needle's cell.

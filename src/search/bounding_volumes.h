@@ -85,11 +85,9 @@ struct BoundingVolumes {
   /// All but the half length, which does not depend on the units of time. `elapsed` is the time
   /// since the needle's record.
   void set_motion(Needle i, double elapsed, const MotionFrame::Path& path, Time now);
-  /// The boxes to be added to the record of j, which i has found in this cell.
-  Shift boxes_between(Needle i, Needle j, const Cell& seen) const {
-    const Shift shift = class_of(j).grid.boxes_between(seen, places[j].cell);
-    return rows ? boxes_between_rows(i, j, seen, shift) : shift;
-  }
+  /// The boxes to be added to the record of j, which i has found in this cell of a row, so many
+  /// boxes from that of j.
+  Shift boxes_between_rows(Needle i, Needle j, const Cell& seen, const Shift& shift) const;
 
   const Gas& gas;
   MotionFrame frame;
@@ -105,13 +103,13 @@ struct BoundingVolumes {
   LargeArray<Shift> wraps;            ///< then: boxes subtracted from each record's centre
 
  private:
-  Shift boxes_between_rows(Needle i, Needle j, const Cell& seen, Shift shift) const;
   void carry_rows(Time now);
   Cell cell_around(Needle i) const;
   void begin_frame(Time now);
   void rebase(Time now, int threads);
   template <bool falls>
   bool place_one(Needle i, Time now, double half_length);
+  bool place_in_row(Needle i, Time now, double half_length);
   template <bool falls>
   bool place_flight(Needle i, const kernels::Flight& flight, double elapsed, Time now,
                     double half_length);

@@ -21,15 +21,29 @@ kernels::Scan CellScan::look(Needle i, double ahead) {
   const ClassCells& own = volumes_.class_of(i);
   views_.clear();
   return with_volume(own.kind, [&]<class Own>(Own) {
-    Look& first = looks_.front();
-    first.cells = &own;
-    first.origin = volumes_.places[i].cell;
-    first.touching = volumes_.distances.largest(i, own.widest_half);
-    set_seeker(volumes_, own, i, ahead, first.seeker);
-    Own::read_entry(own, volumes_.places[i].slot, first.seeker);
-    if (volumes_.rows) return look_into_rows<Own>(ahead);
+    set_first<Own>(own, i, ahead);
     return looks_.size() == 1 ? look_into_one_class<Own>(ahead) : look_into_classes<Own>(i, ahead);
   });
+}
+
+kernels::Scan CellScan::look_into_rows(Needle i, double ahead) {
+  const ClassCells& own = volumes_.class_of(i);
+  views_.clear();
+  return with_volume(own.kind, [&]<class Own>(Own) {
+    set_first<Own>(own, i, ahead);
+    return look_into_rows<Own>(ahead);
+  });
+}
+
+template <class Own>
+[[gnu::always_inline]] inline void CellScan::set_first(const ClassCells& own, Needle i,
+                                                       double ahead) {
+  Look& first = looks_.front();
+  first.cells = &own;
+  first.origin = volumes_.places[i].cell;
+  first.touching = volumes_.distances.largest(i, own.widest_half);
+  set_seeker(volumes_, own, i, ahead, first.seeker);
+  Own::read_entry(own, volumes_.places[i].slot, first.seeker);
 }
 
 // How far others, in volumes There, may be from what the seeker sweeps. The margins cover the

@@ -45,11 +45,15 @@ class CellScan {
 
  private:
   template <class Own>
+  void set_first(const ClassCells& own, Needle i, double ahead);
+  template <class Own>
   kernels::Scan look_into_one_class(double ahead);
   template <class Own>
   kernels::Scan look_into_classes(Needle i, double ahead);
   template <class Own>
   kernels::Scan look_into_rows(double ahead);
+  kernels::Scan look_into_rows(Needle i, double ahead);
+  friend class RowScan;
   template <class Scanned>
   kernels::Scan scan_all(const Scanned& scan);
   template <class Own, class There>
@@ -61,6 +65,13 @@ class CellScan {
   std::vector<Look> looks_;  ///< one for each class, the own one first
   CellViews views_;
   FoundColumns found_;
+};
+
+/// The same where cells slide in rows (sliding_rows.h).
+class RowScan : public CellScan {
+ public:
+  using CellScan::CellScan;
+  kernels::Scan look(Needle i, double ahead) { return look_into_rows(i, ahead); }
 };
 
 /// Sets the seeker to needle i, as it flies now.

@@ -17,7 +17,9 @@ struct NearSearch::Parts {
         filters(filters_pairs),
         counters(its_counters),
         cells(all, its_kernels),
-        filter(all, its_kernels, its_counters) {}
+        filter(all, its_kernels, its_counters) {
+    if (all.rows) rows.emplace(all, its_kernels);
+  }
 
   template <class Source>
   std::span<const Candidate> find(Source& source, Needle i, const JustHit& just_hit, double ahead);
@@ -27,6 +29,7 @@ struct NearSearch::Parts {
   bool filters;  ///< whether pairs are bracketed by SIMD before they are proposed
   Counters& counters;
   CellScan cells;
+  std::optional<RowScan> rows;     ///< absent where cells do not slide
   std::optional<BallLists> balls;  ///< absent where all neighbours are looked for at each search
   PairFilter filter;
   std::vector<Candidate> candidates;
@@ -73,8 +76,9 @@ void NearSearch::prefetch_ball(Needle i) const { parts_->balls->prefetch(i); }
 
 std::span<const Candidate> NearSearch::candidates(Needle i, const JustHit& just_hit, double ahead) {
   Parts& own = *parts_;
-  return has_balls_ ? own.find(*own.balls, i, just_hit, ahead)
-                    : own.find(own.cells, i, just_hit, ahead);
+  if (has_balls_) return own.find(*own.balls, i, just_hit, ahead);
+  if (!own.rows) return own.find(own.cells, i, just_hit, ahead);
+  return own.find(*own.rows, i, just_hit, ahead);
 }
 
 template <class Source>
@@ -87,7 +91,12 @@ inline std::span<const Candidate> NearSearch::Parts::find(Source& source, Needle
   }
   // The boxes to be added to the centre of a needle found in this view.
   const auto shift_of = [&](Needle j, std::uint32_t view) {
-    return volumes.boxes_between(i, j, source.cell_seen(view));
+    const Shift shift =
+        volumes.class_of(j).grid.boxes_between(source.cell_seen(view), volumes.places[j].cell);
+    if constexpr (std::is_same_v<Source, RowScan>)
+      return volumes.boxes_between_rows(i, j, source.cell_seen(view), shift);
+    else
+      return shift;
   };
   candidates.clear();
   if (filters) {

@@ -90,6 +90,8 @@ TEST_F(RunCommand, PrintsWhatItsDocumentDescribes) {
         "[[walls]]\naxis = 'z'\nside = 'both'\ntemperature = 1\n");
   json budget = driven["energy_budget"];
   budget.update(result("channel.toml")["energy_budget"]);  // the thermostat knows no gravity
+  write("sheared.toml", "needles = { count = 5, box = 4 }\nuntil.time = 1\nshear.rate = 1\n");
+  budget.update(result("sheared.toml")["energy_budget"]);
   EXPECT_EQ(keys_of(budget), sorted(described["Result with walls or driving"]));
   write("wide.toml", "needles = { count = 5, box = 4, diameter = 0.1 }\nuntil.time = 1\n");
   std::vector<std::string> of_rods = described["Result"];

@@ -122,22 +122,23 @@ TEST(Shear, OfSpheresHasTheEventsOfQuad) {
 // Scenes of every body and rule that goes with shear.
 Scene any_scene(test::Random& random) {
   const double side = random.uniform(2.2, 7);
-  Scene scene = scene_of(static_cast<std::uint64_t>(20 + random.below(80)), side, random.below(1000));
+  Scene scene =
+      scene_of(static_cast<std::uint64_t>(20 + random.below(80)), side, random.below(1000));
   scene.needles.box = {side, random.uniform(2.2, 5), random.uniform(2.2, 4)};
   scene.shear = Scene::Shear{random.log_uniform(0.02, 20) * (random.below(2) ? 1 : -1),
                              random.below(2) ? random.uniform(0, side) : 0};
   scene.collisions.epsilon = random.uniform(0.6, 1);
   if (random.below(3) == 0) scene.collisions.beta = random.uniform(-1, 1);
-  if (random.below(3) == 0) scene.collisions.tc_relative = 0.01;
+  scene.collisions.tc_relative = 0.01;
   switch (random.below(4)) {
     case 0:
       scene.species = {{.name = "long", .count = 20, .length = 1, .mass = 1},
                        {.name = "short", .count = 30, .length = 0.4, .mass = 0.3}};
       break;
     case 1:
-      scene.species = {{.name = "rods", .count = 12, .length = 1, .mass = 1, .diameter = 0.05},
-                       {.name = "spheres", .count = 20, .length = 0, .mass = 1, .t_rot = 0,
-                        .diameter = 0.3}};
+      scene.species = {
+          {.name = "rods", .count = 12, .length = 1, .mass = 1, .diameter = 0.05},
+          {.name = "spheres", .count = 20, .length = 0, .mass = 1, .t_rot = 0, .diameter = 0.3}};
       scene.collisions.beta = -1;
       break;
     default:
@@ -220,7 +221,8 @@ TEST(Shear, BalancesToRounding) {
         for (std::size_t a = 0; a < 3; ++a) out[a] += w[a] / (2 * scene.needles.k);
       return out;
     };
-    const double energy = simulation.totals().energy, count = static_cast<double>(scene.needles.count);
+    const double energy = simulation.totals().energy,
+                 count = static_cast<double>(scene.needles.count);
     const std::array<double, 3> spin_before = spin(simulation.copy());
     for (int n = 1; n <= 30; ++n) {
       simulation.advance(until_time(0.1 * n));
@@ -304,6 +306,7 @@ TEST(Shear, OfElasticNeedlesRunsBackwards) {
     for (double& v : state.velocity[n]) v = -v;
     for (double& w : state.angular_velocity[n]) w = -w;
   }
+  state.shear_rate = -1.3;
   Scene back = scene;
   back.shear = Scene::Shear{-1.3, std::fmod(0.4 + 1.3 * 3.5 * end, 3.5)};
   Followed there(back, state);
@@ -315,6 +318,41 @@ TEST(Shear, OfElasticNeedlesRunsBackwards) {
   }
   EXPECT_GT(expected.size(), 20u);
   expect_same_pairs(expected, there.collisions, expected.size());
+}
+
+// A state says in which flow it is, and how far rows have slid.
+TEST(Shear, StartsFromAStateInAFlow) {
+  const Scene scene = sheared(60, 4, 1.5, 2.5);
+  Simulation first(scene);
+  first.advance(until_time(1.7));
+  const State state = first.copy();
+  EXPECT_NEAR(state.slide, std::fmod(2.5 + 1.5 * 4 * 1.7, 4), 1e-12);
+  EXPECT_EQ(state.shear_rate, 1.5);
+  Scene silent = scene;
+  silent.shear->offset = 0;
+  const auto beside = [](const Simulation& simulation) {
+    return simulation.copy().peculiar_velocity;
+  };
+  const auto expect_same_beside = [&](const Simulation& simulation) {
+    const auto got = beside(simulation), expected = beside(first);
+    for (std::size_t n = 0; n < got.size(); ++n)
+      for (std::size_t a = 0; a < 3; ++a) EXPECT_NEAR(got[n][a], expected[n][a], 1e-12);
+  };
+  const Simulation same(silent, state);
+  EXPECT_EQ(same.copy().position, state.position);
+  EXPECT_EQ(same.copy().velocity, state.velocity);
+  EXPECT_EQ(same.copy().slide, state.slide);
+  expect_same_beside(same);
+  Scene faster = silent;
+  faster.shear->rate = 2;
+  expect_same_beside(Simulation(faster, state));
+  State beside_flow = state;
+  beside_flow.velocity.clear();
+  expect_same_beside(Simulation(silent, beside_flow));
+  EXPECT_THROW(Simulation(scene, state), InputError);  // which says another slide
+  Scene without = scene;
+  without.shear.reset();
+  EXPECT_THROW(Simulation(without, state), InputError);
 }
 
 TEST(Shear, RefusesAStateWithMomentumAcrossTheFlow) {

@@ -367,11 +367,12 @@ TEST_F(Reading, WrongBoxesAreRefused) {
   };
   const std::string edges = "/particles/all/box/edges";
   EXPECT_EQ(put({3, 3}, {10, 0, 0, 0, 10, 0, 0, 2.5, 10}),
-            edges + "[2][1] = 2.5: expected 0, a rectangular box");
+            edges + "[2][1] = 2.5: expected 0, a box that is rectangular or tilted along x by y");
   EXPECT_EQ(put({3, 3}, {10, 1, 1, 1, 10, 1, 1, 1, 10}, 3),
-            edges + "[0][1] = 1: expected 0, a rectangular box");
-  EXPECT_EQ(put({1, 3, 3}, {10, 0, 1e-9, 0, 10, 0, 0, 0, 10}),
-            edges + "[0][0][2] = 1e-09: expected 0, a rectangular box");
+            edges + "[0][1] = 1: expected 0, a box that is rectangular or tilted along x by y");
+  EXPECT_EQ(
+      put({1, 3, 3}, {10, 0, 1e-9, 0, 10, 0, 0, 0, 10}),
+      edges + "[0][0][2] = 1e-09: expected 0, a box that is rectangular or tilted along x by y");
   EXPECT_EQ(put({3}, {10, 0, 10}), edges + ", axis 1 = 0: expected an edge above 0");
   EXPECT_EQ(put({3}, {10, 10, -1}), edges + ", axis 2 = -1: expected an edge above 0");
   EXPECT_EQ(put({3}, {std::numeric_limits<double>::quiet_NaN(), 10, 1}),

@@ -143,6 +143,7 @@ class Fields:
 
         self.sequence("walls", wall)
         self.several("forces.gravity", "f64", 3)
+        self.optional("shear", lambda name: self.several(name, "f64", 2))
         self.optional("driving.kicks", three)
         self.optional("driving.andersen", lambda name: self.several(name, "f64", 2))
         for name in ("search", "queue", "accuracy"):

@@ -117,7 +117,7 @@ TEST(HostileScene, MessageEscapesControlCharacters) {
   EXPECT_EQ(message(R"(["a\nb"])"),
             "s.toml: line 1: [a\\nb]: expected one of the sections needles, species, initial, "
             "collisions, "
-            "pairs, walls, forces, driving, engine, until, output");
+            "pairs, walls, forces, shear, driving, engine, until, output");
   EXPECT_EQ(message("until.time = '\xe2\x80\xae'"),
             "s.toml: line 1: until.time = '\\u202e': expected a time >= 0");
   EXPECT_EQ(message(R"(title = "\u001b[2J")"),

@@ -132,7 +132,7 @@ TEST(Override, IsNamedInItsError) {
   EXPECT_EQ(
       message_of_overrides({"neddles.count=5"}),
       "--set neddles.count=5: expected one of the sections needles, species, initial, collisions, "
-      "pairs, walls, forces, driving, engine, until, output, did you mean needles?");
+      "pairs, walls, forces, shear, driving, engine, until, output, did you mean needles?");
 }
 
 TEST(Override, ErrorsOfTheFileComeFirst) {

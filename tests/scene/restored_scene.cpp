@@ -86,7 +86,8 @@ TEST(RestoredScene, HasAllKeys) {
   std::set<std::string> seen;
   for (const char* text : {rich, species, effects,
                            "needles = { count = 1, box = 3 }\nuntil.time = 1\n"
-                           "driving.andersen = { rate = 0.5, temperature = 2 }",
+                           "driving.andersen = { rate = 0.5, temperature = 2 }\n"
+                           "shear = { rate = 0.1, offset = 2 }",
                            "needles = { count = 1, box = 3 }\nuntil.time = 1\n"
                            "initial.file = \"state.h5\"\n"
                            "collisions.tc_relative = 1"}) {

@@ -106,7 +106,7 @@ SceneSection shear_section() {
                {"offset",
                 Aspect::effects,
                 {0, 1e12},
-                "a length >= 0, below the edge along x",
+                "a length >= 0 (at most 1e12), below the edge along x",
                 [](Scene& s, V v, R r) { return store(shear_of(s).offset, number(v, r)); }}},
       .rules = {{Aspect::effects, walls_stop_the_flow},
                 {Aspect::effects, gravity_drives_the_flow},
