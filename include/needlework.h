@@ -516,15 +516,28 @@ NEEDLEWORK_API const char* needlework_data_name(needlework_simulation* simulatio
 /* ---- Numbers --------------------------------------------------------------------------------- */
 
 typedef struct needlework_totals {
-  double time;            /* since the start */
-  double t_tr, t_rot;     /* (2/3) <m v^2 / 2>, and <I w^2 / 2> of those that turn */
-  double energy;          /* per needle */
-  double initial_energy;  /* per needle, at the start; NaN without needles */
-  double momentum[3];     /* of all needles */
-  uint64_t collisions;    /* since the start */
-  uint64_t tc_collisions; /* those made elastic by the t_c rule */
-  double mean_free_time; /* by kinetic theory, at about the present temperatures; may be infinite */
-  double epoch_length;   /* of needlework_collision.epoch */
+  /* numbers of totals_in_c */
+  /* Time since the start of the run [time] */
+  double time;
+  /* Translational temperature: two thirds of the mean energy of translation [energy] */
+  double t_tr;
+  /* Rotational temperature: the mean energy of rotation of bodies that turn [energy] */
+  double t_rot;
+  /* Kinetic energy per needle, and that in gravity between walls [energy] */
+  double energy;
+  /* Energy per needle at the start; NaN without needles [energy] */
+  double initial_energy;
+  /* Total momentum of all needles [mass times length per time] */
+  double momentum[3];
+  /* Number of collisions since the start of the run */
+  uint64_t collisions;
+  /* Number of collisions since the start of the run that the contact-time rule made elastic */
+  uint64_t tc_collisions;
+  /* Mean free time by kinetic theory, at about the present temperatures; may be infinite [time] */
+  double mean_free_time;
+  /* Length of an epoch of needlework_collision [time] */
+  double epoch_length;
+  /* end of numbers */
 } needlework_totals;
 
 /* Sums over all needles at the present time. [handle] */

@@ -45,9 +45,18 @@ module needlework
   end type
 
   type, bind(c) :: needlework_totals
-    real(c_double) :: time, t_tr, t_rot, energy, initial_energy, momentum(3)
-    integer(c_int64_t) :: collisions, tc_collisions
-    real(c_double) :: mean_free_time, epoch_length
+    ! numbers of totals_in_c
+    real(c_double) :: time
+    real(c_double) :: t_tr
+    real(c_double) :: t_rot
+    real(c_double) :: energy
+    real(c_double) :: initial_energy
+    real(c_double) :: momentum(3)
+    integer(c_int64_t) :: collisions
+    integer(c_int64_t) :: tc_collisions
+    real(c_double) :: mean_free_time
+    real(c_double) :: epoch_length
+    ! end of numbers
   end type
 
   type, bind(c) :: needlework_species

@@ -8,7 +8,7 @@
 //                         epsilon, beta
 //   /particles/needles    box/edges [F][3][3]; position, velocity, image, orientation and
 //                         angular_velocity, each [F][N][3]; id [N], mass [N]
-//   /observables          t_tr, t_rot, energy, collisions, tc_collisions, each [F]; momentum [F][3]
+//   /observables          the sums of Totals, each [F]; momentum [F][3]
 //   /series               the same sums, each [S] or [S][3], and in a group for each observable of
 //                         the scene its fields, each [S][...]
 //   /velocities_set       where a caller has replaced all velocities: step, time, each [C]; t_tr,

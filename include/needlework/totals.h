@@ -13,14 +13,49 @@ namespace needlework {
 
 /// Sums over all needles at one instant, which do not depend on the order of the needles.
 struct Totals {
-  double time = 0;                   ///< since the start of the run [time]
-  double t_tr = 0;                   ///< (2/3) <m v^2 / 2>
-  double t_rot = 0;                  ///< <I w^2 / 2> of those that turn, which spheres do not
-  double energy = 0;                 ///< per needle; with gravity g along axes with walls that of
-                                     ///< -m g r, r counted from the low edges of the box
-  std::array<double, 3> momentum{};  ///< total
-  std::uint64_t collisions = 0;      ///< since the start of the run
+  double time = 0;
+  double t_tr = 0;    ///< (2/3) <m v^2 / 2>
+  double t_rot = 0;   ///< <I w^2 / 2> of those that turn, which spheres do not
+  double energy = 0;  ///< with gravity g along axes with walls that of -m g r, r counted from the
+                      ///< low edges of the box
+  std::array<double, 3> momentum{};
+  std::uint64_t collisions = 0;
   std::uint64_t tc_collisions = 0;
+
+  /// Calls visit(Described, member) for each number but the time, which in files is that of a row.
+  template <class Visit>
+  static constexpr void for_each_sum(Visit&& visit) {
+    visit(Described{"t_tr", unit::energy,
+                    "Translational temperature: two thirds of the mean energy of translation"},
+          &Totals::t_tr);
+    visit(Described{"t_rot", unit::energy,
+                    "Rotational temperature: the mean energy of rotation of bodies that turn"},
+          &Totals::t_rot);
+    visit(Described{"energy", unit::energy,
+                    "Kinetic energy per needle, and that in gravity between walls"},
+          &Totals::energy);
+    visit(Described{"momentum", unit::momentum, "Total momentum of all needles"},
+          &Totals::momentum);
+    visit(Described{"collisions", unit::none, "Number of collisions since the start of the run"},
+          &Totals::collisions);
+    visit(Described{"tc_collisions", unit::none,
+                    "Number of collisions since the start of the run that the contact-time rule "
+                    "made elastic"},
+          &Totals::tc_collisions);
+  }
+
+  /// The same for all numbers.
+  template <class Visit>
+  static constexpr void for_each_member(Visit&& visit) {
+    visit(Described{"time", unit::time, "Time since the start of the run"}, &Totals::time);
+    for_each_sum(visit);
+  }
+
+  /// Calls visit(Described, value) for each number, here and below in the order of all interfaces.
+  template <class Visit>
+  constexpr void for_each(Visit&& visit) const {
+    for_each_member([&](const Described& number, auto member) { visit(number, this->*member); });
+  }
 };
 
 /// What Totals has of the needles of one species.
@@ -28,7 +63,6 @@ struct SpeciesTotals {
   std::uint64_t count = 0;
   double t_tr = 0, t_rot = 0;
 
-  /// Calls visit(Described, value) for each number, here and below in the order of all interfaces.
   template <class Visit>
   constexpr void for_each(Visit&& visit) const {
     visit(Described{"count", unit::none, "Number of needles"}, count);

@@ -31,8 +31,6 @@ if TYPE_CHECKING:
     import pandas
     from numpy.typing import ArrayLike
 
-TOTALS = ("t_tr", "t_rot", "energy", "momentum", "collisions", "tc_collisions")
-
 
 def read(path: str | os.PathLike[str]) -> Recording | SweepSummary:
     """Opens a file that a run has written, or is writing, or any other H5MD file of needles, of
@@ -51,27 +49,30 @@ def read(path: str | os.PathLike[str]) -> Recording | SweepSummary:
 class Series(Table):
     """Sums over all needles at the times of the samples, arrays [S]."""
 
+    # numbers of totals
     time: np.ndarray
-    """Since the start of the run [time]."""
+    """Time since the start of the run [time]."""
     t_tr: np.ndarray
-    """Translational temperature, two thirds of the mean energy of translation."""
+    """Translational temperature: two thirds of the mean energy of translation [energy]."""
     t_rot: np.ndarray
-    """Rotational temperature, the mean energy of rotation of bodies that turn."""
+    """Rotational temperature: the mean energy of rotation of bodies that turn [energy]."""
     energy: np.ndarray
-    """Energy per needle."""
+    """Kinetic energy per needle, and that in gravity between walls [energy]."""
     momentum: np.ndarray
-    """Total momentum, [S, 3]."""
+    """Total momentum of all needles [mass times length per time], [S, 3]."""
     collisions: np.ndarray
-    """Number of collisions since the start."""
+    """Number of collisions since the start of the run."""
     tc_collisions: np.ndarray
-    """How many of them were elastic by the t_c rule."""
+    """Number of collisions since the start of the run that the contact-time rule made
+    elastic."""
+    # end of numbers
 
     @classmethod
     def of(cls, samples: Iterable[Mapping[str, Any]]) -> Series:
         """The series of the totals of a simulation at some times, in order of time."""
         samples = list(samples)
         return cls({name: np.array([sample[name] for sample in samples])
-                    for name in ("time", *TOTALS)})
+                    for name in cls.__annotations__})
 
 
 class VelocitiesSet(Table):
@@ -82,14 +83,18 @@ class VelocitiesSet(Table):
     """Since the start of the run [time]."""
     collisions: np.ndarray
     """Number of collisions before."""
+    # changes of totals
     t_tr: np.ndarray
-    """Translational temperature, [C, 2]."""
+    """Translational temperature: two thirds of the mean energy of translation [energy], [C,
+    2]."""
     t_rot: np.ndarray
-    """Rotational temperature, [C, 2]."""
+    """Rotational temperature: the mean energy of rotation of bodies that turn [energy], [C,
+    2]."""
     energy: np.ndarray
-    """Energy per needle, [C, 2]."""
+    """Kinetic energy per needle, and that in gravity between walls [energy], [C, 2]."""
     momentum: np.ndarray
-    """Total momentum, [C, 2, 3]."""
+    """Total momentum of all needles [mass times length per time], [C, 2, 3]."""
+    # end of changes
 
 
 class Events(NotPickled):
@@ -161,7 +166,8 @@ class Recording(NotPickled):
         group = self._group("series", "a file of a run with a series")
         samples = len(group["step"])
         columns = {"time": group["time"][:samples]}
-        columns |= {name: group[name]["value"][:samples] for name in TOTALS}
+        columns |= {name: group[name]["value"][:samples]
+                    for name in Series.__annotations__ if name != "time"}
         return Series(columns)
 
     def observable(self, name: str) -> Values:
@@ -198,13 +204,14 @@ class Recording(NotPickled):
     @cached_property
     def velocities_set(self) -> VelocitiesSet:
         """Where a caller has replaced all velocities; without rows where none has."""
-        changes = len(self._file["velocities_set/step"]) if self._has("velocities_set") else 0
-        names = ("time", "step", "t_tr", "t_rot", "energy", "momentum")
-        shapes = ((), (), (2,), (2,), (2,), (2, 3))
-        return VelocitiesSet({
-            "collisions" if name == "step" else name:
-            self._file["velocities_set"][name][:changes] if changes else np.empty((0, *shape))
-            for name, shape in zip(names, shapes)})
+        if not self._has("velocities_set"):  # of an earlier version, or another program
+            columns = {name: np.empty((0, 2)) for name in VelocitiesSet.__annotations__}
+            return VelocitiesSet(columns | {"time": np.empty(0), "collisions": np.empty(0),
+                                            "momentum": np.empty((0, 2, 3))})
+        group = self._file["velocities_set"]
+        changes = len(group["step"])
+        return VelocitiesSet({name: group["step" if name == "collisions" else name][:changes]
+                              for name in VelocitiesSet.__annotations__})
 
     @cached_property
     def data(self) -> dict[str, Any]:

@@ -33,20 +33,23 @@ class SceneWarning(UserWarning):
 class Totals(Values):
     """Sums over all needles at one instant."""
 
+    # numbers of totals
     time: float
-    """Since the start of the run [time]."""
+    """Time since the start of the run [time]."""
     t_tr: float
-    """Translational temperature, two thirds of the mean energy of translation."""
+    """Translational temperature: two thirds of the mean energy of translation [energy]."""
     t_rot: float
-    """Rotational temperature, the mean energy of rotation of bodies that turn."""
+    """Rotational temperature: the mean energy of rotation of bodies that turn [energy]."""
     energy: float
-    """Energy per needle."""
+    """Kinetic energy per needle, and that in gravity between walls [energy]."""
     momentum: np.ndarray
-    """Total momentum, [3]."""
+    """Total momentum of all needles [mass times length per time], [3]."""
     collisions: int
-    """Number of collisions since the start."""
+    """Number of collisions since the start of the run."""
     tc_collisions: int
-    """How many of them were elastic by the t_c rule."""
+    """Number of collisions since the start of the run that the contact-time rule made
+    elastic."""
+    # end of numbers
 
 
 class SpeciesTotals(Values):

@@ -18,7 +18,7 @@ class SweepSummary(Table):
 
     series: tuple[Table, ...]
     """For each point, at the times that all its members have: ``time`` [S], and means and, as
-    NAME_error, errors of t_tr, t_rot, energy, momentum [S, 3], collisions and tc_collisions."""
+    NAME_error, errors of the sums over all needles, [S, 3] of momentum."""
     seeds: tuple[np.ndarray, ...]
     """For each point, the seeds of its members."""
     about: Values

@@ -7,6 +7,8 @@
 #include <system_error>
 
 #include "src/c/handle.h"
+#include "src/c/numbers.h"
+#include "src/c/totals.h"
 #include "src/c/vectors.h"
 #include "src/runs/output_path.h"
 #include "src/runs/state_file.h"
@@ -68,18 +70,11 @@ int needlework_get_totals(needlework_simulation* simulation, needlework_totals* 
   return c::guarded(simulation, [&](needlework_simulation& self) {
     c::require(totals, "totals");
     const Simulation& source = self.run.simulation();
-    const Totals sums = source.totals();
-    *totals = {};
-    totals->time = sums.time;
-    totals->t_tr = sums.t_tr;
-    totals->t_rot = sums.t_rot;
-    totals->energy = sums.energy;
-    totals->initial_energy = source.initial_energy();
-    std::copy_n(sums.momentum.begin(), 3, totals->momentum);
-    totals->collisions = sums.collisions;
-    totals->tc_collisions = sums.tc_collisions;
-    totals->mean_free_time = source.mean_free_time();
-    totals->epoch_length = source.epoch_length();
+    const c::AllTotals numbers{.sums = source.totals(),
+                               .initial_energy = source.initial_energy(),
+                               .mean_free_time = source.mean_free_time(),
+                               .epoch_length = source.epoch_length()};
+    c::copy_numbers(numbers, *totals, &needlework_totals::time);
   });
 }
 

@@ -1,5 +1,5 @@
 // Numbers of results in the structures of C, which tests/results/declare.py writes in the order
-// of their lists: eight bytes each.
+// of their lists: eight bytes each, and arrays of such.
 #pragma once
 
 #include <cstddef>
@@ -14,18 +14,18 @@
 namespace needlework::c {
 
 /// Copies the numbers of a result to the last members of a structure, those from `first` on; of an
-/// array the sum.
+/// array whose length is not fixed the sum.
 template <class Sums, class Struct, class First>
 void copy_numbers(const Sums& sums, Struct& to, First Struct::*first) {
   static_assert(std::is_trivially_copyable_v<Struct>);
   std::vector<unsigned char> bytes;
   const auto add = [&](const auto& value) {
-    static_assert(sizeof(value) == 8);
-    bytes.resize(bytes.size() + 8);
-    std::memcpy(bytes.data() + bytes.size() - 8, &value, 8);
+    static_assert(sizeof(value) % 8 == 0);
+    bytes.resize(bytes.size() + sizeof(value));
+    std::memcpy(bytes.data() + bytes.size() - sizeof(value), &value, sizeof(value));
   };
   sums.for_each([&](const Described&, const auto& value) {
-    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>) {
+    if constexpr (std::is_trivially_copyable_v<std::decay_t<decltype(value)>>) {
       add(value);
     } else {
       add(std::accumulate(value.begin(), value.end(), 0.0));

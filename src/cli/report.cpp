@@ -142,18 +142,13 @@ std::string json_of(const Report& report) {
   const Simulation& simulation = report.simulation;
   Json json;
   json["needles"] = scene.needles.count;
-  json["collisions"] = last.collisions;
+  json::add_numbers(json, last);
   json["events"] = simulation.counters().events;
-  json["time"] = number(last.time);
   json["collisions_per_needle"] = number(report.collisions_per_needle());
   json["collision_rate"] = number(report.collision_rate());
   json["collision_rate_error"] = number(report.collision_rate_error());
   json["collision_rate_exact"] = number(report.collision_rate_exact());
-  json["energy"] = number(last.energy);
   json["energy_initial"] = number(report.result.initial.energy);
-  json["t_tr"] = number(last.t_tr);
-  json["t_rot"] = number(last.t_rot);
-  json["momentum"] = {number(last.momentum[0]), number(last.momentum[1]), number(last.momentum[2])};
   if (!scene.species.empty()) json::add_species(json, simulation);
   if (simulation.composition().has_width()) json::add_rods(json, scene, simulation);
   if (!scene.walls.empty()) json::add_walls(json, simulation);
@@ -188,7 +183,6 @@ std::string json_of(const Report& report) {
   json["queue"] = simulation.queue();
   json["accuracy"] = accuracy_name(scene.engine);
   json["effects"] = simulation.effects();
-  json["tc_collisions"] = last.tc_collisions;
   json["trajectory_hash"] = simulation.trajectory_hash();
   json["seed"] = scene.needles.seed;
   json["version"] = NEEDLEWORK_VERSION;

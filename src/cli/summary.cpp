@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <string_view>
 #include <type_traits>
 
@@ -163,19 +165,24 @@ std::string pair_lines(const Report& report) {
   return text + rest_line(names.size(), shown.size(), "as few or fewer", "collisions_by_pair");
 }
 
-// The numbers of a result that there are, with their names as words.
+// The numbers of a result that there are, with their names as words, without these.
 template <class Sums>
-std::string numbers_text(const Sums& sums) {
+std::string numbers_text(const Sums& sums, std::span<const std::string_view> without = {}) {
   std::string text;
   sums.for_each([&](const Described& number, const auto& value) {
-    if (!std::isfinite(static_cast<double>(value))) return;
+    if (std::ranges::find(without, number.name) != without.end()) return;
+    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>) {
+      if (!std::isfinite(static_cast<double>(value))) return;
+    }
     std::string name = number.name;
     std::ranges::replace(name, '_', ' ');
     text += fmt::format("{}{} ", text.empty() ? "" : ", ", name);
     if constexpr (std::is_integral_v<std::decay_t<decltype(value)>>) {
       text += fmt::format("{}", value);
-    } else {
+    } else if constexpr (std::is_floating_point_v<std::decay_t<decltype(value)>>) {
       text += fmt::format("{:.5g}", value);
+    } else {
+      text += fmt::format("{:.5g}", fmt::join(value, ", "));
     }
   });
   return text;
@@ -200,6 +207,14 @@ std::string stress_lines(const StressTotals& mean) {
                  with_error(mean.second_normal_difference, mean.second_normal_difference_error));
   }
   return text;
+}
+
+// Those that are in no other line.
+std::string rest_of_totals(const Totals& last) {
+  constexpr std::array<std::string_view, 7> elsewhere = {
+      "time", "t_tr", "t_rot", "energy", "momentum", "collisions", "tc_collisions"};
+  const std::string text = numbers_text(last, elsewhere);
+  return text.empty() ? text : line("totals", "{}", text);
 }
 
 std::string rod_line(const Report& report) {
@@ -359,6 +374,7 @@ std::string summary_of(const Report& report) {
     text += fmt::format("; {} of them ({}) elastic by the t_c rule\n", last.tc_collisions,
                         per_cent(last.collisions ? share : 0));
   }
+  text += rest_of_totals(last);
   if (const auto contacts = report.simulation.sliding_contacts()) {
     text += line("contacts", "{}", numbers_text(*contacts));
   }

@@ -3,7 +3,6 @@
 #include <array>
 #include <utility>
 
-#include "src/composition/total_mass.h"
 #include "src/engine/exact_sums.h"
 #include "src/physics/mean_free_time.h"
 
@@ -27,16 +26,27 @@ Needle needle_of(const Gas& gas, const Record& record) {
   return Needle(static_cast<std::size_t>(&record - gas.records.data()));
 }
 
+// Calls sum(weight) with a function that gives the weights of records of a species.
+template <class Sum>
+auto with_weights(const Gas& gas, std::size_t species, const Sum& sum) {
+  // To look at each body would cost half as much again as the sums.
+  if (gas.bodies_are_of(species)) return sum([](const Record&) { return Weight{}; });
+  return sum([&gas](const Record& a) { return weight_of(gas, a); });
+}
+
 // SumsOfSquares::height and pulled of a species.
 std::array<double, 2> falls_of(const Gas& gas, Time now, std::size_t species, int threads) {
   if (!gas.falls) return {};
   const Vec3d g = weight(gas), low = lowest(gas);
-  const auto [height, pulled] = exact_sums(gas.records, threads, [&](const Record& a) {
-    if (a.species != species) return std::array{0.0, 0.0};
-    const Needle i = needle_of(gas, a);
-    const Vec3d centre = gas.slides ? gas.present(i, now).r : gas.motion_from(a, now).centre();
-    const Vec3d way = centre + gas.box_at(now).image(gas.images[i]).place;
-    return std::array{dot(g, low - centre), dot(gas.pull, way)};
+  const auto [height, pulled] = with_weights(gas, species, [&](const auto& weight_of_record) {
+    return exact_sums(gas.records, threads, [&](const Record& a) {
+      if (a.species != species) return std::array{0.0, 0.0};
+      const Needle i = needle_of(gas, a);
+      const Vec3d centre = gas.slides ? gas.present(i, now).r : gas.motion_from(a, now).centre();
+      const Vec3d way = centre + gas.box_at(now).image(gas.images[i]).place;
+      const double mass = weight_of_record(a).mass;
+      return std::array{mass * dot(g, low - centre), mass * dot(gas.pull, way)};
+    });
   });
   return {height, pulled};
 }
@@ -72,17 +82,42 @@ auto with_velocities(const Gas& gas, Time now, const Sum& sum) {
   return sum([](const Record& a) { return VelocitiesOfRecord{a.flight.v, a.flight.w}; });
 }
 
+// The present velocities of a record, and its weight.
+template <class VelocitiesOf, class WeightOf>
+struct MotionOf {
+  const VelocitiesOf& velocities;
+  const WeightOf& weight;
+};
+
+// Calls sum(of) with what gives both of the records of a species.
+template <class Sum>
+auto with_motion(const Gas& gas, Time now, std::size_t species, const Sum& sum) {
+  return with_velocities(gas, now, [&](const auto& velocities_of) {
+    return with_weights(gas, species, [&](const auto& weight_of) {
+      return sum(MotionOf{velocities_of, weight_of});
+    });
+  });
+}
+
 }  // namespace
+
+Weight weight_of(const Gas& gas, const Record& record) {
+  const Body& body = gas.body(record);
+  const Species& species = gas.composition[record.species];
+  return {.mass = body.mass / species.mass,
+          .inertia = body.turns() ? body.inertia / species.inertia() : 1};
+}
 
 std::vector<SumsOfSquares> sums_of_squares(const Gas& gas, Time now, int threads) {
   std::vector<SumsOfSquares> out(gas.composition.size());
   if (gas.size() == 0) return out;
   for (std::size_t species = 0; species < out.size(); ++species) {
-    const auto [v2, w2] = with_velocities(gas, now, [&](const auto& velocities_of) {
+    const auto [v2, w2] = with_motion(gas, now, species, [&](const auto& of) {
       return exact_sums(gas.records, threads, [&](const Record& a) {
         if (a.species != species) return std::array{0.0, 0.0};
-        const auto [v, w] = velocities_of(a);
-        return std::array{dot(v, v), dot(w, w)};
+        const auto [v, w] = of.velocities(a);
+        const auto [mass, inertia] = of.weight(a);
+        return std::array{mass * dot(v, v), inertia * dot(w, w)};
       });
     });
     const auto [height, pulled] = falls_of(gas, now, species, threads);
@@ -168,9 +203,7 @@ double energy_of(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
   return gas.falls ? motion + potential_of(gas, sums) : motion;
 }
 
-double energy_of_low_edges(const Gas& gas) {
-  return total_mass(gas.composition) * dot(weight(gas), lowest(gas));
-}
+double energy_of_low_edges(const Gas& gas) { return gas.mass() * dot(weight(gas), lowest(gas)); }
 
 double work_of_pull(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
   double out = 0;
@@ -186,11 +219,13 @@ Totals totals_of(const Gas& gas, Time now, int threads) {
   std::vector<SumsOfSquares> sums;
   for (std::size_t species = 0; species < gas.composition.size(); ++species) {
     // All at once: reading the records takes most of the time.
-    const auto [v2, w2, x, y, z] = with_velocities(gas, now, [&](const auto& velocities_of) {
+    const auto [v2, w2, x, y, z] = with_motion(gas, now, species, [&](const auto& of) {
       return exact_sums(gas.records, threads, [&](const Record& a) {
         if (a.species != species) return std::array<double, 5>{};
-        const auto [v, w] = velocities_of(a);
-        return std::array{dot(v, v), dot(w, w), v.x, v.y, v.z};
+        const auto [v, w] = of.velocities(a);
+        const auto [mass, inertia] = of.weight(a);
+        return std::array{mass * dot(v, v), inertia * dot(w, w), mass * v.x, mass * v.y,
+                          mass * v.z};
       });
     });
     const auto [height, pulled] = falls_of(gas, now, species, threads);

@@ -10,7 +10,16 @@
 
 namespace needlework {
 
-/// Sums over all needles of a species, on which its energy depends.
+/// How much a needle counts in the sums of its species: its mass and moment of inertia over those
+/// of the species. Both are exactly 1 where its body is that of the species, so that weighted sums
+/// have the bits of plain ones; of spheres, which do not turn, the second is 1.
+struct Weight {
+  double mass = 1, inertia = 1;
+};
+Weight weight_of(const Gas& gas, const Record& record);
+
+/// Sums over all needles of a species, on which its energy depends: w2 is weighted by moments of
+/// inertia, the others by masses.
 struct SumsOfSquares {
   double v2 = 0, w2 = 0;  ///< [L^2 / time^2], [1 / time^2]
   double height = 0;      ///< above where gravity points to, times gravity [L^2 / time^2]

@@ -11,7 +11,6 @@
 
 #include "kernels/in_parallel.h"
 #include "needlework/error.h"
-#include "src/composition/total_mass.h"
 #include "src/effects/driving/andersen.h"
 #include "src/effects/walls/walls.h"
 #include "src/engine/exact_sums.h"
@@ -403,7 +402,7 @@ ReplacedRecords Run::kick() {
     const Vec3d momentum = changes[i].velocity * gas.body(i).mass;
     return std::array{momentum.x, momentum.y, momentum.z};
   });
-  const Vec3d of_all = Vec3d{x, y, z} * (1 / total_mass(gas.composition));
+  const Vec3d of_all = Vec3d{x, y, z} * (1 / gas.mass());
   find_next_kick();
   ReplacedRecords replaced = replace_velocities(
       [&](Needle i) { return gas.present(i, now).v + (changes[i].velocity - of_all); },

@@ -158,13 +158,15 @@ struct Simulation::Implementation {
                       std::span<const std::array<double, 3>> angular_velocity) {
     const std::vector<Needle> rows = by_id();
     std::vector<SumsOfSquares> sums(run.gas.composition.size());
-    const auto sums_of = [&](std::size_t row) -> SumsOfSquares& {
-      return sums[run.gas.records[rows[row]].species];
+    const auto add_to = [&](double SumsOfSquares::*sum, double Weight::*weight) {
+      return [&, sum, weight](std::size_t row, double square) {
+        const Record& record = run.gas.records[rows[row]];
+        sums[record.species].*sum += weight_of(run.gas, record).*weight * square;
+      };
     };
-    check_squares(velocity, rows.size(), "velocity",
-                  [&](std::size_t row, double v2) { sums_of(row).v2 += v2; });
+    check_squares(velocity, rows.size(), "velocity", add_to(&SumsOfSquares::v2, &Weight::mass));
     check_squares(angular_velocity, rows.size(), "angular velocity",
-                  [&](std::size_t row, double w2) { sums_of(row).w2 += w2; });
+                  add_to(&SumsOfSquares::w2, &Weight::inertia));
     const auto moves = [](const std::array<double, 3>& row) {
       return row != std::array<double, 3>{};
     };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "src/io/hdf5.h"
+#include "src/io/sums.h"
 
 namespace needlework::io {
 
@@ -18,26 +19,44 @@ const std::string angular_speed = "radians per time";
 const std::string momentum = "mass times length per time";
 const std::string none;
 
+std::string dimensions(const hdf5::Shape& shape) {
+  std::string out;
+  for (const hsize_t extent : shape) out += fmt::format("[{}]", extent);
+  return out;
+}
+
 // The sums over all needles that files hold more than once: at the times of frames, at the times of
 // the series, and as means over runs. `shape` is that of the scalar sums.
 std::vector<Description> totals(const std::string& group, const std::string& shape) {
-  const std::string of_vector = shape.empty() ? "" : shape + "[3]";
-  return {
-      {group + "/t_tr", "Translational temperature: two thirds of the mean energy of translation",
-       energy, shape},
-      {group + "/t_rot", "Rotational temperature: the mean energy of rotation of bodies that turn",
-       energy, shape},
-      {group + "/energy", "Kinetic energy per needle", energy, shape},
-      {group + "/momentum", "Total momentum of all needles", momentum, of_vector},
-      {group + "/collisions", "Number of collisions since the start of the run", none, shape},
-      {group + "/tc_collisions",
-       "Number of collisions since the start of the run that the contact-time rule made elastic",
-       none, shape},
-  };
+  std::vector<Description> out;
+  Totals::for_each_sum([&](const Described& sum, auto member) {
+    const std::string row = dimensions(InFile<ValueOf<decltype(member)>>::shape());
+    out.push_back(
+        {group + "/" + sum.name, sum.meaning, sum.unit, shape.empty() ? none : shape + row});
+  });
+  return out;
+}
+
+std::vector<Description> changes_of_velocities() {
+  std::vector<Description> out;
+  for_each_of_velocities([&](const Described& sum, auto member) {
+    out.push_back({fmt::format("/velocities_set/{}", sum.name),
+                   fmt::format("{} before and after", sum.name), sum.unit,
+                   "[changes][2]" + dimensions(InFile<ValueOf<decltype(member)>>::shape())});
+  });
+  return out;
 }
 
 void append(std::vector<Description>& list, const std::vector<Description>& more) {
   list.insert(list.end(), more.begin(), more.end());
+}
+
+// Over the runs of a sweep. `row` is the shape of a row.
+std::vector<Description> means(const std::string& path, const std::string& row) {
+  return {{path + "/mean", "Mean over the runs of the point, in the unit of the quantity", none,
+           "[samples]" + row},
+          {path + "/standard_error", "Standard error of the mean, in the unit of the quantity",
+           none, "[samples]" + row}};
 }
 
 // The paths of the objects in the file that `pattern` fits.
@@ -142,14 +161,6 @@ std::vector<Description> run_file_descriptions() {
        none, none},
       {"/velocities_set/step", "Number of collisions before each change", none, "[changes]"},
       {"/velocities_set/time", "Time of each change since the start of the run", time, "[changes]"},
-      {"/velocities_set/t_tr", "Translational temperature before and after each change", energy,
-       "[changes][2]"},
-      {"/velocities_set/t_rot", "Rotational temperature before and after each change", energy,
-       "[changes][2]"},
-      {"/velocities_set/energy", "Kinetic energy per needle before and after each change", energy,
-       "[changes][2]"},
-      {"/velocities_set/momentum", "Total momentum before and after each change", momentum,
-       "[changes][2][3]"},
 
       {"/user_data",
        "Data of the user's own in the order in which they were set; the last entry of a name holds",
@@ -188,6 +199,7 @@ std::vector<Description> run_file_descriptions() {
        none, "[events][3]"},
       {"/events/impulse", "Impulse on the first needle", momentum, "[events][3]"},
   };
+  append(list, changes_of_velocities());
   append(list, totals("/observables", "[frames]"));
   append(list, totals("/series", "[samples]"));
   return list;
@@ -323,15 +335,13 @@ std::vector<Description> sweep_summary_descriptions() {
        none},
       {"/series/*", "Quantities at the point of this number, as functions of time", none, none},
       {"/series/*/time", "Time of each sample since the start of the run", time, "[samples]"},
-      {"/series/*/momentum/mean", "Mean over the runs of the point, in the unit of the quantity",
-       none, "[samples][3]"},
-      {"/series/*/momentum/standard_error",
-       "Standard error of the mean, in the unit of the quantity", none, "[samples][3]"},
-      {"/series/*/*/mean", "Mean over the runs of the point, in the unit of the quantity", none,
-       "[samples]"},
-      {"/series/*/*/standard_error", "Standard error of the mean, in the unit of the quantity",
-       none, "[samples]"},
   };
+  // Those of vectors first.
+  Totals::for_each_sum([&](const Described& sum, auto member) {
+    const std::string row = dimensions(InFile<ValueOf<decltype(member)>>::shape());
+    if (!row.empty()) append(list, means(fmt::format("/series/*/{}", sum.name), row));
+  });
+  append(list, means("/series/*/*", none));
   append(list, totals("/results", none));
   for (const char* axis : {"x", "y", "z"}) {
     for (const char* side : {"low", "high"}) {

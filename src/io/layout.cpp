@@ -7,6 +7,7 @@
 
 #include "src/io/column.h"
 #include "src/io/descriptions.h"
+#include "src/io/sums.h"
 #include "src/io/tables.h"
 
 namespace needlework::io {
@@ -49,16 +50,11 @@ void make_element(hid_t parent, const std::string& name, const StepAndTime& shar
 }
 
 void make_totals(hid_t group, const StepAndTime& shared, const std::string& place) {
-  const auto make = [&](const char* name, hid_t type, const Shape& row) {
-    make_element(group, name, shared, type, row, samples_per_chunk, place);
-  };
-  make("t_tr", type_of<double>(), {});
-  make("t_rot", type_of<double>(), {});
-  make("energy", type_of<double>(), {});
-  make("momentum", type_of<double>(), {3});
-  // Counts are signed, because NumPy converts uint64 and int64 in one expression to floating point.
-  make("collisions", type_of<std::int64_t>(), {});
-  make("tc_collisions", type_of<std::int64_t>(), {});
+  Totals::for_each_sum([&](const Described& sum, auto member) {
+    using Value = ValueOf<decltype(member)>;
+    make_element(group, sum.name, shared, type_of<typename InFile<Value>::Number>(),
+                 InFile<Value>::shape(), samples_per_chunk, place);
+  });
 }
 
 // Rows of few numbers share a chunk of about 16 kB; a large row has a chunk of its own.
@@ -146,10 +142,11 @@ void make_events(hid_t group, bool has_kinds, const std::string& place) {
 
 void make_velocities_set(hid_t group, const std::string& place) {
   make_step_and_time(group, place);
-  for (const char* name : {"t_tr", "t_rot", "energy"}) {
-    Column::create(group, name, type_of<double>(), {2}, samples_per_chunk, place);
-  }
-  Column::create(group, "momentum", type_of<double>(), {2, 3}, samples_per_chunk, place);
+  for_each_of_velocities([&](const Described& sum, auto member) {
+    Shape row = InFile<ValueOf<decltype(member)>>::shape();
+    row.insert(row.begin(), 2);
+    Column::create(group, sum.name, type_of<double>(), row, samples_per_chunk, place);
+  });
 }
 
 void make_user_data(hid_t group, const std::string& place) {

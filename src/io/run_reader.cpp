@@ -1,6 +1,10 @@
 // Reads the series of finished runs.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <optional>
+#include <type_traits>
 
 #include "needlework/error.h"
 #include "needlework/h5md.h"
@@ -21,20 +25,34 @@ std::string read_text(const Source& source, const std::string& path) {
   return texts.front();
 }
 
-// Calls `store` for each row with the sample that it belongs to.
-template <class Number, class Store>
-void read_series(const Source& source, const std::string& name, std::vector<Totals>& series,
-                 Store store) {
+template <class Number>
+void copy_row(const Number* row, Number& to) {
+  to = *row;
+}
+template <class Number, std::size_t size>
+void copy_row(const Number* row, std::array<Number, size>& to) {
+  std::copy_n(row, size, to.begin());
+}
+
+// Reads a sum of all samples, and their times.
+template <class Value>
+void read_sum(const Source& source, const std::string& name, std::vector<Totals>& series,
+              Value Totals::*member) {
   const Element element(source, "/series/" + name);
   const auto times = element.times();
   if (!times)
     throw InputError(source.place(element.name()) + ": no times: expected one for each row");
   series.resize(element.rows());
-  const std::vector<Number> values = element.read<Number>(std::nullopt);
-  const std::size_t width = element.shape()[0] ? values.size() / element.shape()[0] : 0;
+  constexpr bool is_count = std::is_integral_v<Value>;
+  const auto values =
+      element.read<std::conditional_t<is_count, std::uint64_t, double>>(std::nullopt);
+  constexpr std::size_t width = sizeof(Value) / sizeof(values[0]);
+  if (values.size() != width * series.size())
+    throw InputError(fmt::format("{}: expected {} in each row", source.place(element.name()),
+                                 width == 1 ? "a number" : fmt::format("{} numbers", width)));
   for (std::size_t row = 0; row < series.size(); ++row) {
     series[row].time = times->at(row);
-    store(series[row], values.data() + row * width);
+    copy_row(values.data() + row * width, series[row].*member);
   }
 }
 
@@ -44,7 +62,7 @@ void read_series(const Source& source, const std::string& name, std::vector<Tota
 static void transfer(Archive& archive, RecordedRun& run) {
   auto& [scene, version, needles, series, walls, pressure, energy] = run;
   archive(scene, version, needles, series, walls, pressure);
-  archive(energy.pairs, energy.walls, energy.thermostat, energy.kicks, energy.gravity,
+  archive(energy.pairs, energy.walls, energy.thermostat, energy.kicks, energy.gravity, energy.shear,
           energy.velocities_set);
 }
 
@@ -102,6 +120,7 @@ void read_energy_budget(const Source& source, RecordedRun& run) {
   run.energy.thermostat = last("thermostat");
   run.energy.kicks = last("kicks");
   run.energy.gravity = last("gravity");
+  run.energy.shear = last("shear");
   run.energy.velocities_set = last("velocities_set").value_or(0);
   if (run.walls.empty()) return;
   run.energy.walls =
@@ -117,23 +136,8 @@ static RecordedRun read_run_here(const std::string& path, bool with_series) {
   run.version = read_text(source, "/parameters/version");
   run.needles = Element(source, "/particles/needles/id").rows();
   if (!with_series) return run;
-  const auto read = [&](const char* name, double Totals::*member) {
-    read_series<double>(source, name, run.series,
-                        [&](Totals& sample, const double* value) { sample.*member = *value; });
-  };
-  const auto read_count = [&](const char* name, std::uint64_t Totals::*member) {
-    read_series<std::uint64_t>(
-        source, name, run.series,
-        [&](Totals& sample, const std::uint64_t* value) { sample.*member = *value; });
-  };
-  read("t_tr", &Totals::t_tr);
-  read("t_rot", &Totals::t_rot);
-  read("energy", &Totals::energy);
-  read_count("collisions", &Totals::collisions);
-  read_count("tc_collisions", &Totals::tc_collisions);
-  read_series<double>(source, "momentum", run.series, [](Totals& sample, const double* value) {
-    std::copy_n(value, 3, sample.momentum.begin());
-  });
+  Totals::for_each_sum(
+      [&](const Described& sum, auto member) { read_sum(source, sum.name, run.series, member); });
   read_walls(source, run);
   read_energy_budget(source, run);
   return run;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "src/box/box.h"
+#include "src/io/sums.h"
 
 namespace needlework::io {
 
@@ -24,17 +25,20 @@ void append_each(Column& column, std::span<const Row> rows, Numbers numbers) {
   column.append(values.data(), rows.size());
 }
 
-template <class Number, class Row, class Member>
-void append_member(Column& column, std::span<const Row> rows, Member Row::*member) {
-  append_each<Number>(column, rows, [&](const Row& row, auto put) { put(row.*member); });
+// Calls put(number) for a number, or for each of an array.
+template <class Value, class Put>
+void put_numbers(const Value& value, const Put& put) {
+  if constexpr (std::is_arithmetic_v<Value>) {
+    put(value);
+  } else {
+    for (const auto& number : value) put(number);
+  }
 }
 
-template <class Number, class Row, std::size_t size>
-void append_member(Column& column, std::span<const Row> rows,
-                   std::array<Number, size> Row::*member) {
-  append_each<Number>(column, rows, [&](const Row& row, auto put) {
-    for (const Number component : row.*member) put(component);
-  });
+template <class Value>
+void append_member(Column& column, std::span<const Totals> samples, Value Totals::*member) {
+  append_each<typename InFile<Value>::Number>(
+      column, samples, [&](const Totals& sample, auto put) { put_numbers(sample.*member, put); });
 }
 
 }  // namespace
@@ -43,28 +47,23 @@ StepsAndTimes::StepsAndTimes(hid_t file, const std::string& group, const std::st
     : step_(file, group + "/step", place), time_(file, group + "/time", place) {}
 
 void StepsAndTimes::append_times(std::span<const Totals> samples) {
-  append_member<double>(time_, samples, &Totals::time);
+  append_member(time_, samples, &Totals::time);
 }
 
 void StepsAndTimes::append_steps(std::span<const Totals> samples) {
-  append_member<std::int64_t>(step_, samples, &Totals::collisions);
+  append_member(step_, samples, &Totals::collisions);
 }
 
-TotalsTable::TotalsTable(hid_t file, const std::string& group, const std::string& place)
-    : t_tr_(file, group + "/t_tr/value", place),
-      t_rot_(file, group + "/t_rot/value", place),
-      energy_(file, group + "/energy/value", place),
-      momentum_(file, group + "/momentum/value", place),
-      collisions_(file, group + "/collisions/value", place),
-      tc_collisions_(file, group + "/tc_collisions/value", place) {}
+TotalsTable::TotalsTable(hid_t file, const std::string& group, const std::string& place) {
+  Totals::for_each_sum([&](const Described& sum, auto) {
+    columns_.emplace_back(file, fmt::format("{}/{}/value", group, sum.name), place);
+  });
+}
 
 void TotalsTable::append(std::span<const Totals> samples) {
-  append_member<double>(t_tr_, samples, &Totals::t_tr);
-  append_member<double>(t_rot_, samples, &Totals::t_rot);
-  append_member<double>(energy_, samples, &Totals::energy);
-  append_member(momentum_, samples, &Totals::momentum);
-  append_member<std::int64_t>(collisions_, samples, &Totals::collisions);
-  append_member<std::int64_t>(tc_collisions_, samples, &Totals::tc_collisions);
+  auto column = columns_.begin();
+  Totals::for_each_sum(
+      [&](const Described&, auto member) { append_member(*column++, samples, member); });
 }
 
 FieldsTable::FieldsTable(hid_t file, const std::vector<SeriesGroup>& groups,
@@ -155,28 +154,21 @@ void Frames::write_ids(const State& state) {
 }
 
 VelocitiesSetTable::VelocitiesSetTable(hid_t file, const std::string& place)
-    : step_(file, "/velocities_set/step", place),
-      time_(file, "/velocities_set/time", place),
-      t_tr_(file, "/velocities_set/t_tr", place),
-      t_rot_(file, "/velocities_set/t_rot", place),
-      energy_(file, "/velocities_set/energy", place),
-      momentum_(file, "/velocities_set/momentum", place) {}
+    : step_(file, "/velocities_set/step", place), time_(file, "/velocities_set/time", place) {
+  for_each_of_velocities([&](const Described& sum, auto) {
+    columns_.emplace_back(file, fmt::format("/velocities_set/{}", sum.name), place);
+  });
+}
 
 void VelocitiesSetTable::append(std::span<const VelocitiesSet> changes) {
-  const auto append_both = [&](Column& column, double Totals::*member) {
-    append_each<double>(column, changes, [&](const VelocitiesSet& change, auto put) {
-      put(change.before.*member);
-      put(change.after.*member);
-    });
-  };
   append_each<double>(time_, changes,
                       [](const VelocitiesSet& change, auto put) { put(change.after.time); });
-  append_both(t_tr_, &Totals::t_tr);
-  append_both(t_rot_, &Totals::t_rot);
-  append_both(energy_, &Totals::energy);
-  append_each<double>(momentum_, changes, [](const VelocitiesSet& change, auto put) {
-    for (const double component : change.before.momentum) put(component);
-    for (const double component : change.after.momentum) put(component);
+  auto column = columns_.begin();
+  for_each_of_velocities([&](const Described&, auto member) {
+    append_each<double>(*column++, changes, [&](const VelocitiesSet& change, auto put) {
+      put_numbers(change.before.*member, put);
+      put_numbers(change.after.*member, put);
+    });
   });
 }
 

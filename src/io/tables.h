@@ -44,7 +44,7 @@ class TotalsTable {
   void append(std::span<const Totals> samples);
 
  private:
-  Column t_tr_, t_rot_, energy_, momentum_, collisions_, tc_collisions_;
+  std::vector<Column> columns_;  ///< in the order of Totals::for_each_sum()
 };
 
 /// The fields of groups in /series, one H5MD element each, apart from constants.
@@ -103,7 +103,8 @@ class VelocitiesSetTable {
   void append_steps(std::span<const VelocitiesSet> changes);  ///< by which rows are complete
 
  private:
-  Column step_, time_, t_tr_, t_rot_, energy_, momentum_;
+  Column step_, time_;
+  std::vector<Column> columns_;  ///< in the order of for_each_of_velocities()
 };
 
 /// What was set under a name at one instant.

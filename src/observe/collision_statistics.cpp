@@ -17,11 +17,16 @@
 // species ends a chain. Values outside the borders are left out.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numbers>
+#include <span>
+#include <string>
+#include <type_traits>
 #include <unordered_map>
 #include <utility>
 
+#include "needlework/described.h"
 #include "src/observe/histogram.h"
 #include "src/observe/registry.h"
 
@@ -49,17 +54,53 @@ double turning(const Species& species, double t_rot, double arm,
   return size > 0 ? square * (1 - along * along / size) : square;
 }
 
+/// What counts are by, where they are more than one: their extent, and the unit of borders.
+struct Bins {
+  const char* extent = "";
+  const char* unit = unit::none;
+};
+
+std::span<const double> numbers_of(const double& count) { return {&count, 1}; }
+std::span<const double> numbers_of(const std::vector<double>& counts) { return counts; }
+std::span<const double> numbers_of(const Histogram& histogram) { return histogram.counts(); }
+
 /// What is counted of the collisions of two species.
 struct Counts {
   double collisions = 0, repeats = 0;
   std::vector<double> chains = std::vector<double>(longest_chain);
   Histogram arms{-0.5, 0.5, 50}, angle{0, std::numbers::pi, 45}, normal_velocity{0, 6, 60};
 
+  /// Calls visit(Described, bins, value) for each: a number, numbers, or a histogram.
+  template <class These, class Visit>
+  static void for_each(These& these, const Visit& visit) {
+    visit(Described{"collisions", unit::none, "Number of collisions since the sample before"},
+          Bins{}, these.collisions);
+    visit(Described{"repeats", unit::none,
+                    "Number of these that repeat the last collision of both needles"},
+          Bins{}, these.repeats);
+    visit(Described{"chains", unit::none,
+                    "Number of chains of collisions of one pair that ended since the sample "
+                    "before, by length from 1 on"},
+          Bins{"chain lengths"}, these.chains);
+    visit(Described{"arms", unit::none,
+                    "Number of contacts by distance from the needle's centre along its "
+                    "orientation, in needle lengths"},
+          Bins{"arm bins"}, these.arms);
+    visit(Described{"angle", unit::none, "Number of collisions by angle between the orientations"},
+          Bins{"angle bins", unit::angle}, these.angle);
+    visit(Described{"normal_velocity", unit::none,
+                    "Number of collisions by normal relative velocity of the contact points, in "
+                    "units of the thermal one of such points"},
+          Bins{"normal velocity bins"}, these.normal_velocity);
+  }
+
   void transfer(Archive& archive) {
-    arms.transfer(archive);
-    angle.transfer(archive);
-    normal_velocity.transfer(archive);
-    archive(collisions, repeats, chains);
+    for_each(*this, [&](const Described&, const Bins&, auto& value) {
+      if constexpr (requires { value.transfer(archive); }) value.transfer(archive);
+    });
+    for_each(*this, [&](const Described&, const Bins&, auto& value) {
+      if constexpr (!requires { value.transfer(archive); }) archive(value);
+    });
     archive.require(chains.size() == longest_chain);
   }
 };
@@ -71,42 +112,25 @@ class CollisionStatistics : public Observable {
 
   std::vector<SeriesField> fields() const override {
     using enum SeriesField::Kind;
-    const Counts& one = counts_.front();
-    const auto borders = [](std::string name, const Histogram& of, const char* extent,
-                            const char* unit) {
-      return SeriesField{name + "_borders",
-                         "Borders of the bins of " + name,
-                         unit,
-                         {{std::string(extent) + " + 1", of.counts().size() + 1}},
-                         constant,
-                         of.borders()};
-    };
-    const auto shape = [&](std::vector<SeriesField::Extent> values) {
-      return by_pair(gas_.composition, std::move(values));
-    };
-    return {
-        {"collisions", "Number of collisions since the sample before", unit::none, shape({}),
-         count},
-        {"repeats", "Number of these that repeat the last collision of both needles", unit::none,
-         shape({}), count},
-        {"chains",
-         "Number of chains of collisions of one pair that ended since the sample before, by "
-         "length from 1 on",
-         unit::none, shape({{"chain lengths", longest_chain}}), count},
-        {"arms",
-         "Number of contacts by distance from the needle's centre along its orientation, in "
-         "needle lengths",
-         unit::none, shape({{"arm bins", one.arms.counts().size()}}), count},
-        {"angle", "Number of collisions by angle between the orientations", unit::none,
-         shape({{"angle bins", one.angle.counts().size()}}), count},
-        {"normal_velocity",
-         "Number of collisions by normal relative velocity of the contact points, in units of "
-         "the thermal one of such points",
-         unit::none, shape({{"normal velocity bins", one.normal_velocity.counts().size()}}), count},
-        borders("arms", one.arms, "arm bins", unit::none),
-        borders("angle", one.angle, "angle bins", unit::angle),
-        borders("normal_velocity", one.normal_velocity, "normal velocity bins", unit::none),
-    };
+    std::vector<SeriesField> out, borders;
+    Counts::for_each(counts_.front(), [&]<class Value>(const Described& number, const Bins& bins,
+                                                       const Value& value) {
+      std::vector<SeriesField::Extent> shape;
+      if constexpr (!std::is_arithmetic_v<Value>)
+        shape.push_back({bins.extent, numbers_of(value).size()});
+      out.push_back({number.name, number.meaning, number.unit,
+                     by_pair(gas_.composition, std::move(shape)), count});
+      if constexpr (std::is_same_v<Value, Histogram>) {
+        borders.push_back({std::string(number.name) + "_borders",
+                           std::string("Borders of the bins of ") + number.name,
+                           bins.unit,
+                           {{std::string(bins.extent) + " + 1", value.counts().size() + 1}},
+                           constant,
+                           value.borders()});
+      }
+    });
+    std::ranges::move(borders, std::back_inserter(out));
+    return out;
   }
 
   bool reads_state() const override { return false; }
@@ -129,12 +153,16 @@ class CollisionStatistics : public Observable {
   }
 
   void sample(const Snapshot& now, Row& row) override {
-    for (const Counts& each : counts_) row.put(each.collisions);
-    for (const Counts& each : counts_) row.put(each.repeats);
-    for (const Counts& each : counts_) row.put_all(each.chains);
-    for (const Counts& each : counts_) row.put_all(each.arms.counts());
-    for (const Counts& each : counts_) row.put_all(each.angle.counts());
-    for (const Counts& each : counts_) row.put_all(each.normal_velocity.counts());
+    // All of the first name, then all of the second.
+    std::vector<Row> by_name;
+    for (const Counts& each : counts_) {
+      std::size_t n = 0;
+      Counts::for_each(each, [&](const Described&, const Bins&, const auto& value) {
+        if (n == by_name.size()) by_name.emplace_back();
+        by_name[n++].put_all(numbers_of(value));
+      });
+    }
+    for (const Row& each : by_name) row.put_all(each.values());
     counts_.assign(counts_.size(), {});
     for (std::size_t n = 0; n < last_.size(); ++n) {
       last_[n] = {now.species.totals[n].t_tr, now.species.totals[n].t_rot};

@@ -9,6 +9,7 @@
 
 #include "kernels/contact_function.h"
 #include "src/box/box.h"
+#include "src/composition/total_mass.h"
 #include "src/memory/large_array.h"
 #include "src/physics/body.h"
 #include "src/physics/clock.h"
@@ -67,8 +68,16 @@ struct Gas {
   /// Lets needles slide on each other. To be called after set_composition().
   void let_slide();
   /// Length, mass and inertia of needle i. That the needles of a species have the same is known
-  /// here alone.
-  const Body& body(Needle i) const { return bodies_[records[i].species]; }
+  /// to this and the next three functions alone.
+  const Body& body(Needle i) const { return body(records[i]); }
+  const Body& body(const Record& record) const { return bodies_[record.species]; }
+  /// Whether the needles of a species have the mass and the moment of inertia that it has.
+  bool bodies_are_of(std::size_t species) const {
+    const Species& its = composition[species];
+    return bodies_[species].mass == its.mass && bodies_[species].inertia == its.inertia();
+  }
+  /// Of all needles. [m]
+  double mass() const { return total_mass(composition); }
   /// What needles of a species are in this gas.
   Body body_of(const Species& species) const;
   /// How a needle moves from its record on.

@@ -295,15 +295,7 @@ py::dict numbers_of(const Sums& sums) {
 py::dict Run::totals() {
   Totals totals;
   work([&] { totals = run_->simulation().totals(); });
-  py::dict out;
-  out["time"] = totals.time;
-  out["t_tr"] = totals.t_tr;
-  out["t_rot"] = totals.t_rot;
-  out["energy"] = totals.energy;
-  out["momentum"] = Column(3, totals.momentum.data());
-  out["collisions"] = totals.collisions;
-  out["tc_collisions"] = totals.tc_collisions;
-  return out;
+  return numbers_of(totals);
 }
 
 py::list Run::species_totals() {

@@ -6,7 +6,7 @@
 
 namespace needlework::runs {
 
-/// A kind of result by its key in JSON.
+/// A kind of result by its key in JSON; the numbers of "totals" have no object of their own.
 struct ResultKind {
   const char* key;
   const char* meaning;
@@ -15,6 +15,7 @@ struct ResultKind {
 /// Calls visit(kind, sums) for each kind, with sums that have all their numbers.
 template <class Visit>
 void for_each_result(Visit&& visit) {
+  visit(ResultKind{"totals", "Sums over all needles at one instant"}, Totals{});
   visit(ResultKind{"species", "Needles of one species at one instant"}, SpeciesTotals{});
   visit(ResultKind{"rods", "Room and pressure of rods of finite width"}, observe::RodTotals{});
   visit(ResultKind{"walls", "Hits on one wall since the start"}, WallTotals{});

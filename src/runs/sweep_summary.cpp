@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "src/scene/confinement.h"
@@ -26,44 +30,19 @@ struct ResultOf {
   double (*value)(const Run&);
 };
 
+// Beside the totals.
 constexpr ResultOf results[] = {
-    {"time", [](const Run& run) { return run.series.back().time; }},
-    {"collisions",
-     [](const Run& run) { return static_cast<double>(run.series.back().collisions); }},
-    {"tc_collisions",
-     [](const Run& run) { return static_cast<double>(run.series.back().tc_collisions); }},
     {"collisions_per_needle", collisions_per_needle},
     {"collision_rate",
      [](const Run& run) {
        const double time = run.series.back().time;
        return time > 0 ? collisions_per_needle(run) / time : undefined;
      }},
-    {"energy", [](const Run& run) { return run.series.back().energy; }},
     {"energy_ratio",
      [](const Run& run) {
        const double initial = run.series.front().energy;
        return initial > 0 ? run.series.back().energy / initial : undefined;
      }},
-    {"t_tr", [](const Run& run) { return run.series.back().t_tr; }},
-    {"t_rot", [](const Run& run) { return run.series.back().t_rot; }},
-};
-
-struct SeriesOf {
-  const char* name;
-  std::size_t width;
-  double (*value)(const Totals&, std::size_t component);
-};
-
-constexpr SeriesOf all_series[] = {
-    {"t_tr", 1, [](const Totals& sample, std::size_t) { return sample.t_tr; }},
-    {"t_rot", 1, [](const Totals& sample, std::size_t) { return sample.t_rot; }},
-    {"energy", 1, [](const Totals& sample, std::size_t) { return sample.energy; }},
-    {"momentum", 3,
-     [](const Totals& sample, std::size_t component) { return sample.momentum[component]; }},
-    {"collisions", 1,
-     [](const Totals& sample, std::size_t) { return static_cast<double>(sample.collisions); }},
-    {"tc_collisions", 1,
-     [](const Totals& sample, std::size_t) { return static_cast<double>(sample.tc_collisions); }},
 };
 
 std::vector<double> times_of(const Run& run) {
@@ -96,17 +75,29 @@ const Totals& sample_at(const Run& run, double time) {
                            [](const Totals& sample, double t) { return sample.time < t; });
 }
 
-Series series_over(const SeriesOf& kind, std::span<const Run> runs, std::span<const double> times) {
-  Series series{.name = kind.name, .width = kind.width, .estimates = {}};
+// Of the numbers that numbers_of(sample) gives, an array.
+template <class NumbersOf>
+Series series_over(const char* name, const NumbersOf& numbers_of, std::span<const Run> runs,
+                   std::span<const double> times) {
+  Series series{.name = name, .width = numbers_of(Totals{}).size(), .estimates = {}};
   std::vector<double> values(runs.size());
   for (const double time : times) {
-    for (std::size_t component = 0; component < kind.width; ++component) {
+    for (std::size_t component = 0; component < series.width; ++component) {
       std::transform(runs.begin(), runs.end(), values.begin(),
-                     [&](const Run& run) { return kind.value(sample_at(run, time), component); });
+                     [&](const Run& run) { return numbers_of(sample_at(run, time))[component]; });
       series.estimates.push_back(estimate(values));
     }
   }
   return series;
+}
+
+// Scripts may take columns of `sweep --csv` by their places, which stay; others follow.
+std::ptrdiff_t place_in_tables(const Result& result) {
+  constexpr std::string_view places[] = {
+      "time",           "collisions", "tc_collisions", "collisions_per_needle",
+      "collision_rate", "energy",     "energy_ratio",  "t_tr",
+      "t_rot"};
+  return std::ranges::find(places, result.name) - std::begin(places);
 }
 
 // A number of each run, NaN where that has none.
@@ -153,21 +144,34 @@ void add_budget(const Scene& scene, std::span<const Run> runs, PointSummary& poi
     add_result("budget_kicks", runs, point, [](const Run& run) { return run.energy.kicks; });
   if (has_gravity_along_periodic(scene))
     add_result("budget_gravity", runs, point, [](const Run& run) { return run.energy.gravity; });
+  if (scene.shear)
+    add_result("budget_shear", runs, point, [](const Run& run) { return run.energy.shear; });
 }
 
 void add_estimates(PointSummary& point, std::span<const Run> runs, const Scene& scene) {
-  std::vector<double> values(runs.size());
-  for (const ResultOf& result : results) {
-    std::transform(runs.begin(), runs.end(), values.begin(), result.value);
-    point.results.push_back({result.name, estimate(values)});
-  }
+  Totals::for_each_member([&](const Described& total, auto member) {
+    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(Totals{}.*member)>>) {
+      add_result(total.name, runs, point, [member](const Run& run) {
+        return static_cast<double>(run.series.back().*member);
+      });
+    }
+  });
+  for (const ResultOf& result : results) add_result(result.name, runs, point, result.value);
+  std::ranges::stable_sort(point.results, {}, place_in_tables);
   for (const Scene::WallSide& side : scene.wall_sides())
     add_wall({.axis = static_cast<int>(side.axis), .high = side.is_high}, runs, point);
   add_budget(scene, runs, point);
   point.times = common_times(runs);
-  for (const SeriesOf& kind : all_series) {
-    point.series.push_back(series_over(kind, runs, point.times));
-  }
+  Totals::for_each_sum([&](const Described& sum, auto member) {
+    const auto numbers_of = [member](const Totals& sample) {
+      if constexpr (std::is_arithmetic_v<std::decay_t<decltype(sample.*member)>>) {
+        return std::array{static_cast<double>(sample.*member)};
+      } else {
+        return sample.*member;
+      }
+    };
+    point.series.push_back(series_over(sum.name, numbers_of, runs, point.times));
+  });
 }
 
 }  // namespace

@@ -60,14 +60,13 @@ std::vector<PointSummary> summarise(const Grid& grid, const FinishedRun& finishe
 ///   /sweep        grid, scene (texts), version
 ///   /parameters   a dataset [P] for each varied key, "section.key": numbers, or else text in TOML
 ///   /members      count [P]; seeds, of all members one after the other, and point, their points
-///   /results      time, collisions, tc_collisions, collisions_per_needle, collision_rate, energy,
-///                 energy_ratio, t_tr, t_rot at the ends of the runs: each a group with mean [P]
-///                 and standard_error [P]; of each wall hits_z_low, impulse_z_low, pressure_z_low
+///   /results      the totals but for vectors, collisions_per_needle, collision_rate and
+///                 energy_ratio at the ends of the runs: each a group with mean [P] and
+///                 standard_error [P]; of each wall hits_z_low, impulse_z_low, pressure_z_low
 ///                 and budget_z_low, and with walls or driving budget_pairs, budget_thermostat,
-///                 budget_kicks and budget_gravity
-///   /series       a group for each point, 00000, 00001, ...: time [S], and t_tr, t_rot, energy,
-///                 momentum, collisions, tc_collisions, each a group with mean and standard_error
-///                 [S], [S][3] for momentum
+///                 budget_kicks, budget_gravity and budget_shear
+///   /series       a group for each point, 00000, 00001, ...: time [S], and the sums over all
+///                 needles, each a group with mean and standard_error [S], [S][3] of vectors
 ///
 /// The same summary makes the same bytes. An existing file is replaced, in one step. Throws
 /// IoError.

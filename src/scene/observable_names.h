@@ -2,13 +2,25 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string_view>
+
+#include "needlework/totals.h"
 
 namespace needlework {
 
 /// Sums over all needles, which every file holds whether they are named or not.
-inline constexpr std::array<std::string_view, 6> total_names = {
-    "t_tr", "t_rot", "energy", "momentum", "collisions", "tc_collisions"};
+inline constexpr auto total_names = [] {
+  constexpr std::size_t count = [] {
+    std::size_t sums = 0;
+    Totals::for_each_sum([&](const Described&, auto) { ++sums; });
+    return sums;
+  }();
+  std::array<std::string_view, count> names;
+  auto name = names.begin();
+  Totals::for_each_sum([&](const Described& sum, auto) { *name++ = sum.name; });
+  return names;
+}();
 
 /// What is computed where a scene names it. src/observe/registry.cpp makes them, and does not
 /// compile if it has others.

@@ -42,14 +42,9 @@ Json numbers(const std::array<double, 3>& values) {
 
 Json summary_of(const runs::PreparedRun& run) {
   const Simulation& simulation = run.simulation();
-  const Totals totals = simulation.totals();
-  Json answer{{"time", totals.time},
-              {"collisions", totals.collisions},
-              {"energy", number(totals.energy)},
-              {"t_tr", number(totals.t_tr)},
-              {"t_rot", number(totals.t_rot)},
-              {"momentum", numbers(totals.momentum)},
-              {"trajectory_hash", simulation.trajectory_hash()}};
+  Json answer;
+  json::add_numbers(answer, simulation.totals());
+  answer["trajectory_hash"] = simulation.trajectory_hash();
   if (!run.scene().species.empty()) json::add_species(answer, simulation);
   if (simulation.composition().has_width()) json::add_rods(answer, run.scene(), simulation);
   if (!run.scene().walls.empty()) json::add_walls(answer, simulation);

@@ -10,8 +10,7 @@
 namespace needlework {
 
 inline void transfer(Archive& archive, Totals& totals) {
-  auto& [time, t_tr, t_rot, energy, momentum, collisions, tc_collisions] = totals;
-  archive(time, t_tr, t_rot, energy, momentum, collisions, tc_collisions);
+  Totals::for_each_member([&](const Described&, auto member) { archive(totals.*member); });
 }
 
 inline void transfer(Archive& archive, WallTotals& wall) {

@@ -41,12 +41,13 @@ LAYERS = [
     Layer("search", ["src/search"], [],
           ["base", "memory", "composition", "kernels", "box", "trajectory", "physics"]),
     Layer("calendar", ["src/calendar"], [], ["base", "memory", "kernels", "physics"]),
-    # Which calendars a scene may name is what the list of calendars says.
+    # Which calendars a scene may name is what the list of calendars says, and which sums that of totals.
     Layer("boltzmann", ["src/boltzmann"], ["boltzmann.h"],
           ["base", "composition", "random", "kernels", "physics"], ["theory"]),
     Layer("scene", ["src/scene"],
           ["scene.h"],
-          ["base", "machine", "archive", "composition", "random", "kernels", "box", "calendar"]),
+          ["base", "machine", "archive", "composition", "random", "kernels", "box", "calendar"],
+          ["trajectory"]),
     # Scenes as text. Only it uses libraries that read TOML and JSON.
     Layer("scene_text", ["src/scene_text"], ["parse.h", "user_data.h"], ["base", "machine", "scene"]),
     Layer("engine", ["src/engine"], ["simulation.h", "initial_state.h"],

@@ -6,7 +6,7 @@ that the library has of each kind (include/needlework/totals.h, src/runs/results
     declare.py DESCRIBE --check  exit code 1, and the files that differ, if something else stands there
 
 DESCRIBE is the program that prints the lists, build/release/describe_results. Marks are comments,
-"numbers of KIND" and "end of numbers"; in file-format.md "series of GROUP".
+"numbers of KIND" and "end of numbers"; "series of GROUP" and "sums of runs" in pages about files.
 """
 
 import json
@@ -19,26 +19,51 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 
 
+def size_of(number):
+    """The extent of an array of fixed length, as C writes it; of others a structure has the sum."""
+    return f"[{number['size']}]" if "size" in number else ""
+
+
 def in_c(number):
     kind = "uint64_t" if number["type"] == "count" else "double"
-    meaning = number["meaning"] + (", of all" if number["type"] == "reals" else "")
+    sums = number["type"] == "reals" and "size" not in number
     unit = f" [{number['unit']}]" if number["unit"] else ""
-    lines = textwrap.wrap(f"{meaning}{unit}", 94)
+    lines = textwrap.wrap(f"{number['meaning']}{', of all' if sums else ''}{unit}", 94)
     comment = "\n   * ".join(lines)
-    return f"  /* {comment} */\n  {kind} {number['name']};\n"
+    return f"  /* {comment} */\n  {kind} {number['name']}{size_of(number)};\n"
 
 
 def in_fortran(number):
     kind = "integer(c_int64_t)" if number["type"] == "count" else "real(c_double)"
-    return f"    {kind} :: {number['name']}\n"
+    return f"    {kind} :: {number['name']}{size_of(number).translate({91: '(', 93: ')'})}\n"
+
+
+def as_attribute(number, kind, shape=""):
+    unit = f" [{number['unit']}]" if number["unit"] else ""
+    text = textwrap.fill(f'\"\"\"{number["meaning"]}{unit}{shape}.\"\"\"', 96,
+                         initial_indent="    ", subsequent_indent="    ")
+    return f"    {number['name']}: {kind}\n{text}\n"
 
 
 def in_python(number):
     kind = {"count": "int", "real": "float", "reals": "np.ndarray"}[number["type"]]
-    unit = f" [{number['unit']}]" if number["unit"] else ""
-    text = textwrap.fill(f'\"\"\"{number["meaning"]}{unit}.\"\"\"', 96, initial_indent="    ",
-                         subsequent_indent="    ")
-    return f"    {number['name']}: {kind}\n{text}\n"
+    return as_attribute(number, kind, f", {size_of(number)}" if "size" in number else "")
+
+
+def with_rows(number, row):
+    """The shape of a column of rows, where it is not that of the others."""
+    return f", [{row}, {number['size']}]" if "size" in number else ""
+
+
+def in_series(number):
+    return as_attribute(number, "np.ndarray", with_rows(number, "S"))
+
+
+def in_changes(number):
+    """What a caller who sets velocities changes, which times and counts are not."""
+    if number["name"] == "time" or number["type"] == "count":
+        return ""
+    return as_attribute(number, "np.ndarray", with_rows(number, "C, 2") or ", [C, 2]")
 
 
 def in_table(number):
@@ -50,29 +75,67 @@ def in_file(name, field):
     return f"| `/series/{name}` | {field['meaning']} | `{field['type']}`{unit} |\n"
 
 
-# How a number looks in a file, and what goes around the marks there.
+def type_in_file(number, rows):
+    return f"{'int64' if number['type'] == 'count' else 'float64'}{rows}{size_of(number)}"
+
+
+def sum_of_run(number):
+    unit = f", {number['unit']}" if number["unit"] else ""
+    row = (f"| `/series/{number['name']}`, `/observables/{number['name']}` | {number['meaning']} | "
+           f"`{type_in_file(number, '[samples or frames]')}`{unit} |\n")
+    if number["type"] != "count":
+        row += (f"| `/velocities_set/{number['name']}` | {number['name']} before and after | "
+                f"`{type_in_file(number, '[changes][2]')}`{unit} |\n")
+    return row
+
+
+def sum_of_sweep(number):
+    unit = f", {number['unit']}" if number["unit"] else ""
+    path = f"/series/*/{number['name']}"
+    if "size" not in number:
+        return f"| `/results/{number['name']}`, `{path}` | {number['meaning']} | group{unit} |\n"
+    rows = f"`{type_in_file(number, '[samples]')}`"
+    return (f"| `{path}` | {number['meaning']} | group{unit} |\n"
+            f"| `{path}/mean` | Mean over the runs of the point, in the unit of the quantity | {rows} |\n"
+            f"| `{path}/standard_error` | Standard error of the mean, in the unit of the quantity "
+            f"| {rows} |\n")
+
+
+# What goes around the marks in a file, and how a number looks there, by the word before "of".
 FILES = {
-    "include/needlework.h": (in_c, "  /* ", " */\n"),
-    "examples/fortran/needlework.f90": (in_fortran, "    ! ", "\n"),
-    "python/needlework/simulation.py": (in_python, "    # ", "\n"),
-    "docs/json.md": (in_table, "<!-- ", " -->\n"),
+    "include/needlework.h": ("  /* ", " */\n", {"numbers": in_c}),
+    "examples/fortran/needlework.f90": ("    ! ", "\n", {"numbers": in_fortran}),
+    "python/needlework/simulation.py": ("    # ", "\n", {"numbers": in_python}),
+    "python/needlework/reading.py": ("    # ", "\n", {"numbers": in_series, "changes": in_changes}),
+    "docs/json.md": ("<!-- ", " -->\n", {"numbers": in_table}),
+    "docs/file-format.md": ("<!-- ", " -->\n", {"series": in_file}),
+    "docs/observables.md": ("<!-- ", " -->\n", {"series": in_file}),
 }
+# Sums over all needles, in the tables of docs/file-format.md.
+SUMS = {"runs": sum_of_run, "sweeps": sum_of_sweep}
 
 
 def declared(file, text, lists):
-    look, begin, end = FILES.get(file, (None, "<!-- ", " -->\n"))
-    pattern = re.compile(f"({re.escape(begin)}(numbers|series) of (\\w+){re.escape(end)})(.*?)"
-                         f"({re.escape(begin)}end of \\2{re.escape(end)})", re.S)
+    begin, end, looks = FILES[file]
+    pattern = re.compile(f"({re.escape(begin)}(numbers|changes|series|sums) of (\\w+){re.escape(end)})"
+                         f"(.*?)({re.escape(begin)}end of \\2{re.escape(end)})", re.S)
 
     def block(match):
         what, kind = match[2], match[3]
         if what == "series":
-            head = "| path | meaning | type, shape, unit |\n|---|---|---|\n"
             rows = "".join(in_file(name, field) for name, field in lists["series"].items()
-                           if name.split("/")[0] == kind)
+                           if name.split("/")[0] in lists["groups"].get(kind, [kind]))
+        elif what == "sums":
+            rows = "".join(SUMS[kind](number) for number in lists["results"]["totals"]["numbers"]
+                           if number["name"] != "time")
         else:
-            head = "| key | meaning | unit |\n|---|---|---|\n" if file.endswith(".md") else ""
-            rows = "".join(look(number) for number in lists["results"][kind]["numbers"])
+            rows = "".join(looks[what](number) for number in lists["results"][kind]["numbers"])
+        if not file.endswith(".md"):
+            head = ""
+        elif what == "numbers":
+            head = "| key | meaning | unit |\n|---|---|---|\n"
+        else:
+            head = "| path | meaning | type, shape, unit |\n|---|---|---|\n"
         return match[1] + head + rows + match[5]
 
     if not pattern.search(text):
@@ -84,7 +147,7 @@ def main():
     describe, *options = sys.argv[1:]
     lists = json.loads(subprocess.run([describe], stdout=subprocess.PIPE, check=True).stdout)
     differ = []
-    for file in [*FILES, "docs/file-format.md"]:
+    for file in FILES:
         path = ROOT / file
         text = path.read_text()
         new = declared(file, text, lists)

@@ -1,13 +1,17 @@
 // Prints the numbers of all results, and the fields that series have of them, as JSON, for
 // declare.py.
+#include <algorithm>
 #include <concepts>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <tuple>
 #include <type_traits>
 
+#include "src/c/totals.h"
 #include "src/observe/observation.h"
 #include "src/runs/results.h"
+#include "src/scene/observable_names.h"
 
 namespace needlework {
 namespace {
@@ -16,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 Json results() {
   Json out = Json::object();
-  runs::for_each_result([&](const runs::ResultKind& kind, const auto& sums) {
+  const auto add = [&](const runs::ResultKind& kind, const auto& sums) {
     Json numbers = Json::array();
     sums.for_each([&](const Described& number, const auto& value) {
       using Value = std::decay_t<decltype(value)>;
@@ -27,9 +31,13 @@ Json results() {
                          {"unit", number.unit},
                          {"meaning", number.meaning},
                          {"type", type}});
+      if constexpr (requires { std::tuple_size<Value>::value; })
+        numbers.back()["size"] = value.size();
     });
     out[kind.key] = {{"meaning", kind.meaning}, {"numbers", numbers}};
-  });
+  };
+  runs::for_each_result(add);
+  add(runs::ResultKind{"totals_in_c", "Totals as C has them"}, c::AllTotals{});
   return out;
 }
 
@@ -48,10 +56,30 @@ Scene with_everything() {
   return scene;
 }
 
+// One species without walls, and with them, with all observables.
+Scene with_observables() {
+  Scene scene;
+  scene.needles.count = 2;
+  scene.needles.box = {5, 5, 5};
+  for (const auto& name : observable_names) {
+    if (std::ranges::find(wall_observable_names, name) == wall_observable_names.end())
+      scene.output.observables.emplace_back(name);
+  }
+  return scene;
+}
+
+Scene with_wall_observables() {
+  Scene scene;
+  scene.needles.count = 2;
+  scene.needles.box = {5, 5, 5};
+  scene.walls = {{.axis = "z", .side = "both"}};
+  scene.output.observables.assign(wall_observable_names.begin(), wall_observable_names.end());
+  return scene;
+}
+
 // By "GROUP/FIELD", with the shape of a row and the type of its elements.
-Json series() {
-  Json out = Json::object();
-  const observe::Observation observation(with_everything());
+void add_series(Json& out, const Scene& scene) {
+  const observe::Observation observation(scene);
   for (const SeriesGroup& group : observation.groups()) {
     for (const SeriesField& field : group.fields) {
       const bool is_constant = field.kind == SeriesField::Kind::constant;
@@ -63,14 +91,28 @@ Json series() {
           {"type", (field.kind == SeriesField::Kind::count ? "int64" : "float64") + shape}};
     }
   }
+}
+
+Json series() {
+  Json out = Json::object();
+  for (const Scene& scene : {with_everything(), with_observables(), with_wall_observables()})
+    add_series(out, scene);
   return out;
+}
+
+// Those that share a table.
+Json groups() {
+  return {{"observables", with_observables().output.observables},
+          {"observables_at_walls", with_wall_observables().output.observables}};
 }
 
 }  // namespace
 }  // namespace needlework
 
 int main() {
-  std::puts(needlework::Json{{"results", needlework::results()}, {"series", needlework::series()}}
+  std::puts(needlework::Json{{"results", needlework::results()},
+                             {"series", needlework::series()},
+                             {"groups", needlework::groups()}}
                 .dump(1)
                 .c_str());
 }

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """A number that is added to the list of a result is in every interface: this adds one to that of
-contacts, in a copy of the sources, and looks for it in JSON, over a pipe, in the summary, the series of
-a file, Python, C, Fortran, the documents and what a report is made of.
+contacts and one to the totals of the gas, in a copy of the sources, and looks for them in JSON, over a
+pipe, in the summary, the series of a file, the summary of a sweep, Python, C, Fortran, the documents
+and what a report is made of.
 
     made_up.py FOLDER    builds in FOLDER, which takes some minutes
 
@@ -27,12 +28,17 @@ int main(void) {
   needlework_error error;
   needlework_simulation* gas = needlework_open("scene.toml", NEEDLEWORK_REPLACE, &error);
   needlework_contacts contacts;
-  if (!gas || needlework_get_contacts(gas, &contacts)) return 1;
-  printf("%llu %g", (unsigned long long)contacts.made_up, contacts.share);
+  needlework_totals totals;
+  if (!gas || needlework_get_contacts(gas, &contacts) || needlework_get_totals(gas, &totals)) return 1;
+  printf("%llu %llu %g", (unsigned long long)contacts.made_up, (unsigned long long)totals.made_up_sum,
+         totals.epoch_length);
   needlework_close(gas);
   return 0;
 }
 """
+
+
+SWEEP = "scene = 'scene.toml'\nseeds = [1, 2]\n"
 
 
 def changed(path, old, new):
@@ -60,6 +66,12 @@ def main():
     changed(totals, '        Described{"time", unit::time,',
             '        Described{"made_up", unit::none, "Number that a test made up"}, made_up);\n'
             '    visit(\n        Described{"time", unit::time,')
+    changed(totals, "  std::uint64_t tc_collisions = 0;\n",
+            "  std::uint64_t tc_collisions = 0;\n  std::uint64_t made_up_sum = 43;\n")
+    changed(totals, "          &Totals::tc_collisions);\n",
+            "          &Totals::tc_collisions);\n"
+            '    visit(Described{"made_up_sum", unit::none, "Sum that a test made up"},'
+            " &Totals::made_up_sum);\n")
 
     run("cmake", "--preset", "release", "-S", copy, "-B", build, "-DNEEDLEWORK_TESTS=ON", cwd=copy)
     targets = ["describe_results", "needlework_program", "needlework_c", "needlework_python"]
@@ -71,34 +83,56 @@ def main():
     program = build / "needlework"
     (folder / "scene.toml").write_text(SCENE)
     run_once = [program, "run", "scene.toml", "--force"]
-    assert json.loads(run(*run_once, "--json", "--quiet", cwd=folder))["contacts"]["made_up"] == 42
-    assert "made up 42" in run(*run_once, cwd=folder)
+    result = json.loads(run(*run_once, "--json", "--quiet", cwd=folder))
+    assert result["contacts"]["made_up"] == 42 and result["made_up_sum"] == 43, result
+    summary = run(*run_once, cwd=folder)
+    assert "made up 42" in summary and "made up sum 43" in summary, summary
+    named = SCENE.replace("series_every", 'observables = ["made_up_sum"], series_every')
+    (folder / "named.toml").write_text(named)
+    run(program, "check", "named.toml", cwd=folder)
     requests = "".join(json.dumps(each) + "\n" for each in (
         {"do": "create", "scene": SCENE.replace("output", "#")},
         {"do": "advance", "simulation": 1, "time": 1}))
     answers = run(program, "serve", cwd=folder, input=requests).splitlines()
-    assert json.loads(answers[-1])["contacts"]["made_up"] == 42, answers[-1]
+    answer = json.loads(answers[-1])
+    assert answer["contacts"]["made_up"] == 42 and answer["made_up_sum"] == 43, answer
 
+    (folder / "grid.toml").write_text(SWEEP)
+    run(program, "sweep", "grid.toml", "--out", "sweep", "--quiet", cwd=folder)
     look = ("import h5py, needlework; "
-            "assert list(h5py.File('made_up.h5')['series/contacts/made_up/value']) == [42] * 3; "
-            "sim = needlework.Simulation('scene.toml', force=True); "
-            "assert sim.sliding_contacts.made_up == 42; sim.close()")
+            "file = h5py.File('made_up.h5'); "
+            "assert list(file['series/contacts/made_up/value']) == [42] * 3; "
+            "assert list(file['series/made_up_sum/value']) == [43] * 3; "
+            "assert set(file['observables/made_up_sum/value']) == {43}; "
+            "assert 'Sum that a test made up' in file['series/made_up_sum'].attrs['description']; "
+            "assert list(needlework.read('made_up.h5').series.made_up_sum) == [43] * 3; "
+            "means = h5py.File('sweep/summary.h5'); "
+            "assert list(means['results/made_up_sum/mean']) == [43]; "
+            "assert set(means['series/00000/made_up_sum/mean']) == {43}; "
+            "file.close(); sim = needlework.Simulation('scene.toml', force=True); "
+            "assert sim.sliding_contacts.made_up == 42 and sim.totals.made_up_sum == 43; sim.close()")
     run("/usr/bin/python3", "-c", look, cwd=folder,
         env={**os.environ, "PYTHONPATH": str(build / "python")})
 
     (folder / "client.c").write_text(CLIENT)
     run("cc", "client.c", f"-I{copy}/include", f"-L{build}", "-lneedlework", f"-Wl,-rpath,{build}",
         "-o", "client", cwd=folder)
-    assert run(folder / "client", cwd=folder).startswith("42 ")
+    printed = run(folder / "client", cwd=folder).split()
+    assert printed[:2] == ["42", "43"] and float(printed[2]) > 0, printed
 
-    for file, text in {"examples/fortran/needlework.f90": ":: made_up",
-                       "python/needlework/simulation.py": "made_up: int",
-                       "docs/json.md": "| `made_up` |",
-                       "docs/file-format.md": "| `/series/contacts/made_up` |"}.items():
-        assert text in (copy / file).read_text(), file
-    # The page of a report lists what it finds in this group of the file.
+    for file, texts in {"examples/fortran/needlework.f90": [":: made_up\n", ":: made_up_sum\n"],
+                        "python/needlework/simulation.py": ["made_up: int", "made_up_sum: int"],
+                        "python/needlework/reading.py": ["made_up_sum: np.ndarray"],
+                        "docs/json.md": ["| `made_up` |", "| `made_up_sum` |"],
+                        "docs/file-format.md": ["| `/series/contacts/made_up` |",
+                                                "| `/series/made_up_sum`, ",
+                                                "| `/results/made_up_sum`, "]}.items():
+        for text in texts:
+            assert text in (copy / file).read_text(), (file, text)
+    # The page of a report lists what it finds in the file.
     run(program, "report", "made_up.h5", "-o", "report.html", "--force", cwd=folder)
-    assert "made_up" in (folder / "report.html").read_text()
+    page = (folder / "report.html").read_text()
+    assert '"made_up"' in page and '"made_up_sum"' in page
     print("a number that was added to one list is everywhere")
 
 

@@ -193,13 +193,17 @@ export function resultsOfRun(run) {
   const { groups, scene, frames } = run;
   if (!groups.totals) return [];
   const { datasets, time } = groups.totals;
-  const last = (name) => column(datasets[name]).at(-1);
+  const told = new Set();
+  const last = (name) => {
+    told.add(name);
+    return column(datasets[name]).at(-1);
+  };
   const theory = (name) => groups.theory && column(groups.theory.datasets[name]).at(-1);
   const energy = last("energy") / column(datasets.energy)[0];
   const beside = (measured, expected) => (expected ? `${numberText(measured / expected)} × theory` : "");
   const collisions = last("collisions");
   const order = groups.flow_order && column(groups.flow_order.datasets.translational).at(-1);
-  return [
+  const results = [
     ["Time", numbers(time).at(-1)],
     ["E/E(0)", energy, beside(last("energy"), theory("energy"))],
     ["T_tr", last("t_tr"), beside(last("t_tr"), theory("t_tr"))],
@@ -208,6 +212,12 @@ export function resultsOfRun(run) {
     ["Collisions", collisions, `${numberText((2 * collisions) / frames.needles_in_file)} per needle`],
     ["Elastic by the t_c rule", last("tc_collisions"), collisions ? `${numberText((100 * last("tc_collisions")) / collisions, 3)} %` : ""],
     ["S", order],
+  ];
+  // Sums without a line of their own; vectors have charts.
+  const rest = Object.keys(datasets).filter((name) => !told.has(name) && datasets[name].has_rows && datasets[name].shape.length === 1);
+  return [
+    ...results,
+    ...rest.map((name) => [name.replaceAll("_", " "), last(name)]),
     ...resultsOfContacts(run),
     ...resultsAtWalls(run),
     ...resultsBySpecies(run),
