@@ -97,13 +97,16 @@ typedef struct needlework_const_vectors {
  * beyond the box are moved into it, which counts as crossings of its borders. */
 typedef struct needlework_initial {
   size_t count;
-  double box[3];                             /* edges; all 0: those of the scene */
-  needlework_const_vectors position;         /* centres, inside the box or not */
-  needlework_const_vectors velocity;         /* absent: all 0 */
-  needlework_const_vectors orientation;      /* directors, of any length but 0 */
-  needlework_const_vectors angular_velocity; /* of which the part normal to the director counts;
-                                                absent: all 0 */
-  const uint32_t* id;                        /* distinct; NULL: 0 to count - 1 */
+  double box[3];                              /* edges; all 0: those of the scene */
+  needlework_const_vectors position;          /* centres, inside the box or not */
+  needlework_const_vectors velocity;          /* absent: all 0 */
+  needlework_const_vectors orientation;       /* directors, of any length but 0 */
+  needlework_const_vectors angular_velocity;  /* of which the part normal to the director counts;
+                                                 absent: all 0 */
+  const uint32_t* id;                         /* distinct; NULL: 0 to count - 1 */
+  needlework_const_vectors peculiar_velocity; /* in place of velocity, which must be absent:
+                                                 beside the flow of [shear] */
+  double slide; /* of the row of boxes above in [shear], where the scene gives no offset */
 } needlework_initial;
 
 /* Makes a simulation of a scene in TOML, as docs/scenes.md describes it; [until] may be missing.
@@ -278,8 +281,10 @@ NEEDLEWORK_API int needlework_set_happening_callback(needlework_simulation* simu
 typedef struct needlework_state {
   needlework_vectors position; /* inside the box */
   needlework_vectors velocity, orientation, angular_velocity;
-  int32_t* image; /* [N][3], box crossings along each axis */
-  uint32_t* id;   /* [N] */
+  int32_t* image;                       /* [N][3], box crossings along each axis */
+  uint32_t* id;                         /* [N] */
+  needlework_vectors peculiar_velocity; /* beside the flow of [shear] */
+  double* slide;                        /* of the row of boxes above */
 } needlework_state;
 
 /* The number of needles; 0 for NULL. [any] */

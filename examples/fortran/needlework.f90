@@ -31,11 +31,15 @@ module needlework
     real(c_double) :: box(3) = 0
     type(needlework_vectors) :: position, velocity, orientation, angular_velocity
     type(c_ptr) :: id = c_null_ptr
+    type(needlework_vectors) :: peculiar_velocity
+    real(c_double) :: slide = 0
   end type
 
   type, bind(c) :: needlework_state
     type(needlework_vectors) :: position, velocity, orientation, angular_velocity
     type(c_ptr) :: image = c_null_ptr, id = c_null_ptr
+    type(needlework_vectors) :: peculiar_velocity
+    type(c_ptr) :: slide = c_null_ptr
   end type
 
   type, bind(c) :: needlework_limits

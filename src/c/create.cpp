@@ -45,7 +45,13 @@ State state_of(const needlework_initial& initial, const int32_t* image, const ui
     throw UsageError("initial->box = 0: expected its edges, as the scene has no needles.box");
   }
   state.position = rows_of(initial.position, count);
-  state.velocity = rows_of(initial.velocity, count);
+  if (initial.velocity.data && initial.peculiar_velocity.data)
+    throw UsageError("initial->velocity and peculiar_velocity: expected one of them");
+  if (initial.peculiar_velocity.data)
+    state.peculiar_velocity = rows_of(initial.peculiar_velocity, count);
+  else
+    state.velocity = rows_of(initial.velocity, count);
+  state.slide = initial.slide;
   state.orientation = rows_of(initial.orientation, count);
   state.angular_velocity = rows_of(initial.angular_velocity, count);
   if (initial.id) state.id.assign(initial.id, initial.id + count);

@@ -43,6 +43,9 @@ int needlework_get_state(needlework_simulation* simulation, const needlework_sta
     c::copy_rows(state.velocity, into->velocity);
     c::copy_rows(state.orientation, into->orientation);
     c::copy_rows(state.angular_velocity, into->angular_velocity);
+    const bool flows = !state.peculiar_velocity.empty();
+    c::copy_rows(flows ? state.peculiar_velocity : state.velocity, into->peculiar_velocity);
+    if (into->slide) *into->slide = state.slide;
     if (into->id) std::copy(state.id.begin(), state.id.end(), into->id);
     if (!into->image) return;
     for (std::size_t n = 0; n < state.size(); ++n) {

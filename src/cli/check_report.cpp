@@ -229,6 +229,27 @@ std::string driving_lines(const runs::Explanation& e) {
   return text;
 }
 
+std::string shear_lines(const runs::Explanation& e) {
+  if (!e.scene.shear) return {};
+  std::string text =
+      line("shear", fmt::format("rate {:g}, the row of boxes above slides by {:.4g} in a time of 1",
+                                e.scene.shear->rate, e.scene.shear->rate * e.scene.needles.box[1]));
+  if (!e.steady) return text;
+  return text + line("", fmt::format("steady at low density with T_tr = {:.4g}, T_rot = {:.4g}, "
+                                     "reached in some {:.2g} collisions per body",
+                                     e.steady->t_tr, e.steady->t_rot, e.steady->collisions));
+}
+
+Json shear_json(const runs::Explanation& e) {
+  Json out{{"rate", e.scene.shear->rate}, {"offset", e.scene.shear->offset}, {"steady", nullptr}};
+  if (e.steady) {
+    out["steady"] = {{"t_tr", number(e.steady->t_tr)},
+                     {"t_rot", number(e.steady->t_rot)},
+                     {"collisions_per_needle", number(e.steady->collisions)}};
+  }
+  return out;
+}
+
 const char* method_of(const runs::Explanation& e) {
   if (!e.placing->on_lattice) return "insertion";
   return e.scene.initial.packing == "crossed" ? "crossed" : "lattice";
@@ -392,6 +413,7 @@ std::string json_of(const runs::Explanation& e) {
     json["gravity"] = scene.forces.gravity;
     json["falling"] = gravity_json(e);
   }
+  if (scene.shear) json["shear"] = shear_json(e);
   if (scene.driving.kicks || scene.driving.andersen) json["driving"] = driving_json(e);
   json["until"] = {{"time", optional_number(scene.until.time)},
                    {"collisions_per_needle", optional_number(scene.until.collisions_per_needle)},
@@ -455,6 +477,7 @@ std::string text_of(const runs::Explanation& e) {
   }
   text += wall_lines(e);
   text += gravity_lines(e);
+  text += shear_lines(e);
   text += driving_lines(e);
   text += line("ends", until_text(scene.until));
   text += line("expected", expected_text(e));

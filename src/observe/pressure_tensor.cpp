@@ -26,9 +26,7 @@ class PressureTensor : public Observable {
   std::vector<SeriesField> fields() const override {
     auto out = fields_of(StressTotals{}, {}, is_taken);
     for (SeriesField& field : out) {
-      field.meaning +=
-          ", mean since the sample before; NaN at the first sample, and for momentum "
-          "that goes along an axis with walls";
+      field.meaning += ", mean since the sample before";
     }
     return out;
   }

@@ -27,8 +27,8 @@ using SpeciesIndices = std::optional<py::array_t<std::uint8_t, py::array::c_styl
 /// Names, length, diameter, mass and k of each species, empty where they are not known.
 using Numbers = std::vector<double>;
 using BodyColumns = std::tuple<std::vector<std::string>, Numbers, Numbers, Numbers, Numbers>;
-using Arrays = std::tuple<Rows, Rows, Rows, Rows, Images, Ids, SpeciesIndices, BodyColumns,
-                          bool, double, double>;
+using Arrays = std::tuple<Rows, Rows, Rows, Rows, Images, Ids, SpeciesIndices, BodyColumns, bool,
+                          double, double>;
 
 State state_of(const Arrays& arrays) {
   State state;

@@ -101,6 +101,18 @@ double kick_power_of(const Scene& scene) {
   return theory::kick_power(scene.composition(), kicks->translational, kicks->rotational);
 }
 
+std::optional<theory::SteadyShear> steady_of(const Scene& scene) {
+  const Composition composition = scene.composition();
+  const std::optional<std::size_t> only = composition.only();
+  if (!scene.shear || !scene.walls.empty() || scene.driving.kicks || scene.driving.andersen ||
+      !only)
+    return {};
+  const Restitution& rule = composition.restitution(*only, *only);
+  if (rule.is_rough()) return {};
+  const double density = static_cast<double>(composition.count()) / volume_of(scene);
+  return theory::steady_shear(composition[*only], rule.epsilon, density, scene.shear->rate);
+}
+
 std::optional<PlannedPlacement> placing_of(const LoadedScene& loaded) {
   const Scene& scene = loaded.scene;
   if (loaded.initial || scene.needles.count == 0 || !scene.composition().has_width()) return {};
@@ -132,6 +144,7 @@ Explanation::Explanation(const LoadedScene& loaded)
       walls(walls_of(loaded)),
       gravity(gravity_of(loaded)),
       kick_power(kick_power_of(scene)),
+      steady(steady_of(scene)),
       expected(expected_of(loaded)),
       collisions(collisions_of(expected, scene)),
       placing(placing_of(loaded)),

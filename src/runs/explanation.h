@@ -48,8 +48,9 @@ struct Explanation {
   std::vector<double> rates;
   std::vector<double> counted_rates;  ///< the same, as runs::counted_rates_by_pair()
   std::vector<ExplainedWall> walls;
-  std::vector<ExplainedGravity> gravity;  ///< along the axes along which there is some
-  double kick_power;                      ///< energy per needle and time that kicks give
+  std::vector<ExplainedGravity> gravity;      ///< along the axes along which there is some
+  double kick_power;                          ///< energy per needle and time that kicks give
+  std::optional<theory::SteadyShear> steady;  ///< of uniform shear, at low density
   std::optional<Forecast> expected;  ///< none: never met, wall_s alone, or not known where walls,
                                      ///< gravity or driving are
   double collisions;                 ///< of all needles until then; NaN if nothing is expected

@@ -79,6 +79,16 @@ std::string warning_of_unknown_bodies(const LoadedScene& loaded) {
   return warning_of_unknown_bodies(loaded.scene, loaded.initial->bodies);
 }
 
+// The velocity of a needle beside the flow of [shear], if there is one.
+static std::array<double, 3> velocity_of(const State& state, const Scene& scene, std::size_t i) {
+  if (state.velocity.empty()) return state.peculiar_velocity.at(i);
+  std::array<double, 3> out = state.velocity[i];
+  if (!scene.shear) return out;
+  const double rate = state.shear_rate != 0 ? state.shear_rate : scene.shear->rate;
+  out[0] -= rate * state.position[i][1];
+  return out;
+}
+
 Totals totals_of(const State& state, const Scene& scene) {
   const Composition composition = scene.composition();
   const std::vector<SpeciesIndex> indices = composition.in_order_of_id(state.species);
@@ -90,10 +100,11 @@ Totals totals_of(const State& state, const Scene& scene) {
   for (std::size_t i = 0; i < state.size(); ++i) {
     const Species& species = composition[composition.is_mixture() ? indices.at(i) : 0];
     const double inertia = species.inertia();
-    totals.t_tr += species.mass * square(state.velocity[i]) / (3 * count);
+    const std::array<double, 3> velocity = velocity_of(state, scene, i);
+    totals.t_tr += species.mass * square(velocity) / (3 * count);
     totals.t_rot += inertia * square(state.angular_velocity[i]) / (2 * count);
     for (int axis = 0; axis < 3; ++axis) {
-      totals.momentum[axis] += species.mass * state.velocity[i][axis];
+      totals.momentum[axis] += species.mass * velocity[axis];
       if (!periodic[axis]) fall -= species.mass * gravity[axis] * state.position[i][axis];
     }
   }
@@ -129,7 +140,7 @@ std::vector<theory::Temperatures> temperatures_by_species(const LoadedScene& loa
     const std::size_t index = composition.is_mixture() ? indices.at(i) : 0;
     const Species& species = composition[index];
     const double count = static_cast<double>(species.count);
-    out[index].t_tr += species.mass * square(state.velocity[i]) / (3 * count);
+    out[index].t_tr += species.mass * square(velocity_of(state, loaded.scene, i)) / (3 * count);
     out[index].t_rot += species.inertia() * square(state.angular_velocity[i]) / (2 * count);
   }
   return out;

@@ -12,7 +12,7 @@
 #include "tests/support/by_build.h"
 #include "tests/support/runs.h"
 
-namespace needlework {
+namespace needlework::steady_shear {
 namespace {
 
 struct Mean {
@@ -264,4 +264,4 @@ TEST(SteadyShear, OfDiluteNeedles_long) {
 }
 
 }  // namespace
-}  // namespace needlework
+}  // namespace needlework::steady_shear

@@ -235,6 +235,7 @@ TEST(BadScene, UnknownKeyComesWithSuggestion) {
 TEST(BadScene, UnknownSectionComesWithSuggestion) {
   const std::string sections =
       "expected one of the sections needles, species, initial, collisions, pairs, walls, forces, "
+      "shear, "
       "driving, engine, until, output";
   expect_messages({
       {"# a scene\n[neddles]\ncount = 5\n",

@@ -1,0 +1,75 @@
+"""Uniform shear: pressure tensor, velocities beside the flow, states and files of sheared boxes."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import needlework
+import numpy as np
+from needlework import InputError, Simulation
+
+SCENE = {"needles": {"count": 60, "box": 4.0}, "collisions": {"epsilon": 0.9},
+         "shear": {"rate": 1.5, "offset": 0.5}}
+
+
+class Shear(unittest.TestCase):
+    def test_pressure_is_a_tensor(self):
+        with Simulation(SCENE) as sim:
+            sim.run(time=3)
+            tensor, budget = sim.pressure_tensor, sim.energy_budget
+            trace = sum(getattr(tensor, f"collisional_{axis}{axis}") for axis in "xyz")
+            self.assertAlmostEqual(trace, 0, places=12)
+            self.assertEqual(tensor.kinetic_xy, tensor.kinetic_yx)
+            self.assertEqual(tensor.shear_stress, -(tensor.kinetic_yx + tensor.collisional_yx))
+            self.assertAlmostEqual(tensor.viscosity, tensor.shear_stress / 1.5, places=12)
+            work = 1.5 * tensor.shear_stress * 64 * 3 / 60
+            self.assertAlmostEqual(budget.shear, work, delta=0.05 * abs(work) + 0.2)
+        with Simulation({"needles": {"count": 9, "box": 5.0}}) as sim:
+            self.assertIsNone(sim.pressure_tensor)
+
+    def test_velocities_are_of_the_stored_image_or_beside_the_flow(self):
+        sim = Simulation(SCENE)
+        sim.run(time=1)
+        flow = np.zeros((60, 3))
+        flow[:, 0] = 1.5 * sim.position[:, 1]
+        np.testing.assert_allclose(sim.velocity - flow, sim.peculiar_velocity, atol=1e-12)
+        still = Simulation({"needles": {"count": 9, "box": 5.0}})
+        np.testing.assert_array_equal(still.velocity, still.peculiar_velocity)
+
+    def test_states_go_on(self):
+        sim = Simulation(SCENE)
+        sim.run(time=1)
+        scene = {"collisions": {"epsilon": 0.9}, "shear": {"rate": 1.5}}
+        again = Simulation(scene, **sim.state)
+        np.testing.assert_array_equal(again.velocity, sim.velocity)
+        self.assertEqual(again.state["flow"], sim.state["flow"])
+        state = {key: sim.state[key] for key in ("position", "orientation", "angular_velocity")}
+        beside = Simulation({**scene, "shear": {"rate": 3.0}}, peculiar_velocity=sim.peculiar_velocity,
+                            **state)
+        np.testing.assert_allclose(beside.peculiar_velocity, sim.peculiar_velocity, atol=1e-12)
+        with self.assertRaisesRegex(InputError, "expected one of them"):
+            Simulation(scene, velocity=sim.velocity, peculiar_velocity=sim.velocity, **state)
+        with self.assertRaisesRegex(InputError, "expected a scene with \\[shear\\]"):
+            Simulation({}, **sim.state)
+
+    def test_files_have_the_tilt_and_go_on(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "run.h5")
+            with Simulation({**SCENE, "output": {"file": str(file), "series_every": 0.5}}) as sim:
+                sim.run(time=2)
+                state, beside = sim.state, sim.peculiar_velocity
+                viscosity = sim.pressure_tensor.viscosity
+            with needlework.read(file) as recording:
+                means = recording.observable("pressure_tensor").viscosity
+                self.assertAlmostEqual(np.nanmean(means), viscosity, places=12)
+                self.assertEqual(recording.observable("energy_budget").shear[0], 0)
+            on = Simulation({"initial": {"file": str(file)}, "collisions": {"epsilon": 0.9},
+                             "shear": {"rate": 1.5}})
+            np.testing.assert_array_equal(on.position, state.position)
+            np.testing.assert_array_equal(on.peculiar_velocity, beside)
+            with self.assertRaisesRegex(InputError, "expected a scene with \\[shear\\]"):
+                Simulation({"initial": {"file": str(file)}})
+
+
+if __name__ == "__main__":
+    unittest.main()
