@@ -246,102 +246,137 @@ NEEDLEWORK_INLINE SimdShares free_around(const SimdSample& e, const SimdBounds& 
           select(known, maximum(share(f_now, f_spread - f_rises), along_after), zero)};
 }
 
-/// bracket() for the vector that begins with pair k, of those before `end`. `part` holds which of
-/// the `parts` of its pair's time each pair of the vector is searched in.
+#include "kernels/intervals_body.h"
+
+/// In each lane, the pair of this number among those of the vector that begins with pair k.
+NEEDLEWORK_INLINE SimdPairs in_lanes(const SimdPairs& all, const PairColumns& pairs, std::size_t k,
+                                     Floats number) {
+  using C = PairColumns;
+  const auto of = [&](int c) NEEDLEWORK_TARGET {
+    return permuted(load_floats(pairs.column[c] + k), number);
+  };
+  SimdPairs out = all;  // of the seeker
+  out.r = {of(C::r_x), of(C::r_y), of(C::r_z)};
+  out.v = {of(C::v_x), of(C::v_y), of(C::v_z)};
+  out.u[1] = {of(C::u_x), of(C::u_y), of(C::u_z)};
+  out.p[1] = {of(C::p_x), of(C::p_y), of(C::p_z)};
+  out.omega[1] = of(C::omega);
+  out.age[1] = of(C::age);
+  out.half[1] = of(C::half);
+  return out;
+}
+
+/// The bounds that free_around() takes.
+NEEDLEWORK_INLINE SimdBounds in_lanes(const SimdBounds& all, Floats number, Mask trusted) {
+  const auto of = [&](Floats a) NEEDLEWORK_TARGET { return permuted(a, number); };
+  SimdBounds out = all;
+  out.coil = of(all.coil);
+  out.tips_bend = of(all.tips_bend);
+  out.error_f = of(all.error_f);
+  out.error_df = of(all.error_df);
+  out.error_ddf = of(all.error_ddf);
+  out.error_dddf = of(all.error_dddf);
+  out.trusted = trusted;
+  return out;
+}
+
+/// Leaves of each interval what may hold a contact: a part that ends before its middle, if there is
+/// one, or the one that begins after it, which is `second` where both are left. Those not longer
+/// than `least` are settled.
+NEEDLEWORK_INLINE void cut(Intervals& now, Intervals& second, const SimdShares& free, Floats least,
+                           float* from) {
+  const Floats zero(0.0f), one(1.0f), half(0.5f);
+  const Floats middle = half * (now.low + now.high), h = half * (now.high - now.low);
+  // A share that is not a number is none.
+  const Floats before = maximum(free.before, zero), after = maximum(free.after, zero);
+  const Floats end = subtract_product(middle, h, before), begin = multiply_add(h, after, middle);
+  const Mask left_first = now.taken & (before < one), left_second = now.taken & (after < one);
+  // What is not a number is settled.
+  Mask first = left_first & (end - now.low > least),
+       last = left_second & (now.high - begin > least);
+  const Mask first_settled = left_first & !first, settled = first_settled | (left_second & !last);
+  if (any(settled)) {
+    settle(from, select(first_settled, now.low, begin), now.pair, settled);
+    const Floats known = permuted(load_floats(from), now.pair);
+    first = first & (now.low < known);
+    last = last & (begin < known);
+  }
+  second = {begin, now.high, now.pair, first & last};
+  now.low = select(first, now.low, begin);
+  now.high = select(first, end, now.high);
+  now.taken = first | last;
+}
+
+/// bracket() for the vector that begins with pair k, of n that are left. `alone`: there are no
+/// other vectors, which would make the lanes that a pair gets depend on its place.
 template <bool wide>
 NEEDLEWORK_INLINE std::size_t bracket_vector(const Seeker& seeker, const PairColumns& pairs,
-                                             std::size_t k, std::size_t end, const float* part,
-                                             std::size_t parts) {
+                                             std::size_t k, std::size_t n, bool alone) {
   using C = PairColumns;
   constexpr float infinity = std::numeric_limits<float>::infinity();
   const Floats zero(0.0f), one(1.0f), half(0.5f), margin(static_cast<float>(time_margin));
   const auto column = [&](int c) NEEDLEWORK_TARGET { return load_floats(pairs.column[c] + k); };
-  const SimdPairs pair = load_pairs(seeker, pairs, k);
-  Floats distance = zero;
-  if constexpr (wide) distance = column(C::distance);
-  const SimdBounds bounds = bounds_of<wide>(seeker, pair, column(C::until), distance);
-  const SimdTimeSpan overlap = overlap_of_spheres(pair, bounds);
-  Floats until = minimum(overlap.end, column(C::until));
-  Floats low = maximum(maximum(overlap.begin, column(C::from)) - margin, zero);
-  if (parts > 1) {
-    const Floats span = (until - low) * Floats(1.0f / static_cast<float>(parts)),
-                 begin = load_floats(part);
-    const Mask last = begin >= Floats(static_cast<float>(parts - 1));
-    until = select(last, until, multiply_add(span, begin + one, low));
-    low = multiply_add(span, begin, low);
-  }
-
-  const Floats least = rough_quotient(Floats(0x1p-9f), bounds.speed);
-  // Over half a step f'' changes f by no more than 3: longer steps are seldom free. Any step will
-  // do, as what it leaves is searched again; one that is not a number is all the time.
+  const SimdPairs all = load_pairs(seeker, pairs, k);
+  const SimdBounds bounds =
+      bounds_of<wide>(seeker, all, column(C::until), wide ? column(C::distance) : zero);
+  const SimdTimeSpan overlap = overlap_of_spheres(all, bounds);
+  Intervals now{maximum(maximum(overlap.begin, column(C::from)) - margin, zero),
+                minimum(overlap.end, column(C::until)),
+                numbers_of_lanes(),
+                {}};
+  const Mask meet = first_lanes(n) & (!overlap.never) & (now.low <= now.high);
+  // Over half a step f'' changes f by no more than 3, so that longer ones are seldom free. No pair
+  // is searched in more than 32 of them, nor up to a time of which no parts can be computed.
   const Floats step = Floats(4.8989795f) * rough_inverse_root(bounds.bend);  // sqrt(8 * 3)
-  // Still to be searched: from low to high, and from next on.
-  Floats high = minimum(low + step, until), next = high;
-  Mask searching = first_lanes(end - k) & (!overlap.never) & (low <= until);
-  Floats from(infinity);
-  std::size_t evaluations = 0;
-  for (int round = 0; round < 40 && any(searching); ++round) {
-    ++evaluations;
-    const Floats middle = half * (low + high), h = half * (high - low);
-    const SimdShares free = free_around<wide>(sample(pair, middle), bounds, h, distance);
-    const Mask left = free.before >= one, right = free.after >= one, both = left & right;
+  const Floats farthest = minimum(multiply_add(Floats(32.0f), step, now.low), Floats(0x1p60f)),
+               end = select(bounds.trusted, farthest, now.low);
+  // The earliest time at which each pair may meet, of those that are settled.
+  float from[floats_at_once];
+  store_floats(select(meet & (end < now.high), end, Floats(infinity)), from);
+  now.high = minimum(end, now.high);
+  now.taken = meet & bounds.trusted & (now.low <= now.high);
+  // What is shorter is not worth another step, or nothing but what rounding makes of times.
+  const Floats least = maximum(rough_quotient(Floats(0x1p-9f), bounds.speed),
+                               Floats(0x1p-20f) * maximum(now.high, one));
 
-    // If the whole first half is free, the search continues in the second half, or after it.
-    // Otherwise it continues in the rest of the first half, and then in the rest of the second.
-    const Floats freed = multiply_add(h, free.after, middle);
-    low = select(left, select(right, next, freed), low);
-    high = select(both, minimum(next + step, until),
-                  select(left, high, subtract_product(middle, h, free.before)));
-    next = select(both, high, select(left | right, next, freed));
-
-    const Mask done = both & (low >= until);
-    const Mask found = searching & (!both) & (high - low <= least);
-    from = select(found, low, from);
-    searching = searching & (!found) & !done;
-  }
-  from = select(searching, low, from);
-  store_floats(maximum(from - margin, zero), pairs.column[C::from] + k);
-  return evaluations;
-}
-
-/// Copies the `count` pairs from k on behind themselves, once for each further part of their time,
-/// and stores in `part` which part each of them is.
-template <bool wide>
-NEEDLEWORK_INLINE void repeat_pairs(const PairColumns& pairs, std::size_t k, std::size_t count,
-                                    std::size_t parts, float* part) {
-  static_assert(PairColumns::distance + 1 == PairColumns::columns);
-  constexpr int columns = wide ? PairColumns::columns : PairColumns::distance;
-  for (std::size_t p = 1; p < parts; ++p) {
-    for (std::size_t lane = 0; lane < count; lane += floats_at_once) {
-      for (float* const* each = pairs.column; each != pairs.column + columns; ++each) {
-        float* const column = *each;
-        store_floats(load_floats(column + k + lane), column + k + p * count + lane);
-      }
-      store_floats(Floats(static_cast<float>(p)), part + p * count + lane);
+  Waiting waiting;
+  std::size_t evaluations = 0, count = count_of(now.taken);
+  for (bool spreads = alone; count > 0 && evaluations < 1000; ++evaluations) {
+    if (spreads) spread(now, count);
+    const Floats middle = half * (now.low + now.high), h = half * (now.high - now.low);
+    const SimdShares free = free_around<wide>(
+        sample(in_lanes(all, pairs, k, now.pair), middle), in_lanes(bounds, now.pair, now.taken), h,
+        wide ? permuted(column(C::distance), now.pair) : zero);
+    Intervals second;
+    cut(now, second, free, permuted(least, now.pair), from);
+    count = count_of(now.taken);
+    const std::size_t more = count_of(second.taken);
+    if (more > 0 && count + more <= floats_at_once) {
+      add(now, second);
+      count += more;
+    } else if (more > 0) {
+      // From here on, which intervals are in lanes together depends on the order of pairs.
+      spreads = false;
+      push(waiting, second, from);
+    }
+    while (waiting.count > 0 && count < floats_at_once) {
+      pop(waiting, now, floats_at_once - count);
+      now.taken = now.taken & (now.low < permuted(load_floats(from), now.pair));
+      count = count_of(now.taken);
     }
   }
+  // Given up, which no pair of a gas is.
+  settle(from, now.low, now.pair, now.taken);
+  lower(from, waiting.low, waiting.pair, waiting.count);
+  store_floats(maximum(load_floats(from) - margin, zero), pairs.column[C::from] + k);
+  return evaluations;
 }
 
 template <bool wide>
 inline std::size_t bracket_all(const Seeker& seeker, const PairColumns& pairs, std::size_t n) {
-  using C = PairColumns;
-  if (n == 0) return 0;
-  // Few pairs do not fill the vectors: each is searched in several parts of its time at once. How
-  // many parts depends on nothing but n, so that no result depends on the position of its pair.
-  const std::size_t parts = std::clamp<std::size_t>(block_size / n, 1, 4);
   std::size_t evaluations = 0;
-  for (std::size_t k = 0; k < n; k += block_size) {
-    const std::size_t count = std::min(n - k, block_size);
-    float part[2 * block_size] = {};
-    repeat_pairs<wide>(pairs, k, count, parts, part);
-    const std::size_t end = k + parts * count;
-    for (std::size_t at = k; at < end; at += floats_at_once) {
-      evaluations += bracket_vector<wide>(seeker, pairs, at, end, part + (at - k), parts);
-    }
-    float* from = pairs.column[C::from] + k;
-    for (std::size_t i = count; i < parts * count; ++i) {
-      if (from[i] < from[i % count]) from[i % count] = from[i];
-    }
+  for (std::size_t k = 0; k < n; k += floats_at_once) {
+    evaluations += bracket_vector<wide>(seeker, pairs, k, n - k, n <= floats_at_once);
   }
   return evaluations;
 }

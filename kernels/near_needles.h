@@ -78,7 +78,7 @@ struct Seeker {
 };
 
 /// Pairs to be looked at more closely, in columns: the second needle as seen from the seeker.
-/// Columns have room for two blocks more, which bracket() overwrites.
+/// Columns have room for one block more; bracket() overwrites that of `from`.
 struct PairColumns {
   enum Column {
     r_x,

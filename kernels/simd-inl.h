@@ -12,6 +12,7 @@
 
 #include <cstdint>
 
+#include "kernels/lane_shares.h"
 #include "kernels/set_bits.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -122,6 +123,43 @@ HWY_INLINE Floats packed(Floats a, const Packing& packing) {
 #endif
 }
 
+/// Moves lanes of one vector, in their order, into lanes of another one, of which there are enough.
+struct Filling {
+  Mask filled;  ///< the lanes moved into: the first of those offered
+#if HWY_TARGET == HWY_AVX3
+  hn::Mask<Tag> chosen;
+#else
+  decltype(hn::IndicesFromVec(Tag(), hn::Zero(hn::RebindToUnsigned<Tag>()))) source;
+#endif
+};
+HWY_INLINE Filling filling_of(Mask chosen, Mask offered) {
+#if HWY_TARGET == HWY_AVX3
+  const unsigned first = (1u << hn::CountTrue(Tag(), chosen.m)) - 1;
+  return {{{static_cast<__mmask16>(_pdep_u32(first, offered.m.raw))}}, chosen.m};
+#else
+  const hn::RebindToUnsigned<Tag> whole;
+  const hn::Rebind<std::uint8_t, Tag> bytes;
+  std::uint8_t from[8] = {}, into[8] = {};
+  hn::StoreMaskBits(Tag(), chosen.m, from);
+  hn::StoreMaskBits(Tag(), offered.m, into);
+  const auto order = hn::PromoteTo(whole, hn::LoadU(bytes, set_bits.place[from[0]]));
+  const auto rank = hn::PromoteTo(whole, hn::LoadU(bytes, set_bits.rank[into[0]]));
+  const auto count = hn::Set(whole, static_cast<std::uint32_t>(hn::CountTrue(Tag(), chosen.m)));
+  const auto filled = hn::And(offered.m, hn::RebindMask(Tag(), hn::Lt(rank, count)));
+  return {{filled},
+          hn::IndicesFromVec(Tag(), hn::TableLookupLanes(order, hn::IndicesFromVec(whole, rank)))};
+#endif
+}
+/// b, with lanes of a.
+HWY_INLINE Floats filled(Floats a, const Filling& filling, Floats b) {
+#if HWY_TARGET == HWY_AVX3
+  return hn::Vec<Tag>{
+      _mm512_mask_expand_ps(b.v.raw, filling.filled.m.raw, hn::Compress(a.v, filling.chosen).raw)};
+#else
+  return hn::IfThenElse(filling.filled.m, hn::TableLookupLanes(a.v, filling.source), b.v);
+#endif
+}
+
 // Unsigned integers in the bits of floats.
 HWY_INLINE Floats load_numbers(const std::uint32_t* p) {
   return hn::BitCast(Tag(), hn::LoadU(hn::RebindToUnsigned<Tag>(), p));
@@ -132,6 +170,15 @@ HWY_INLINE void store_numbers(Floats a, std::uint32_t* p) {
 }
 HWY_INLINE Floats number(std::uint32_t a) {
   return hn::BitCast(Tag(), hn::Set(hn::RebindToUnsigned<Tag>(), a));
+}
+/// The numbers of the lanes: 0, 1, 2 and so on.
+HWY_INLINE Floats numbers_of_lanes() {
+  return hn::BitCast(Tag(), hn::Iota(hn::RebindToUnsigned<Tag>(), 0));
+}
+/// In each lane, what `a` has in the lane of this number.
+HWY_INLINE Floats permuted(Floats a, Floats numbers) {
+  const hn::RebindToUnsigned<Tag> whole;
+  return hn::TableLookupLanes(a.v, hn::IndicesFromVec(Tag(), hn::BitCast(whole, numbers.v)));
 }
 HWY_INLINE Mask same_numbers(Floats a, Floats b) {
   const hn::RebindToUnsigned<Tag> whole;

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kernels/lane_shares.h"
+
 namespace needlework::kernels::scalar {
 
 struct Mask {
@@ -62,9 +64,17 @@ struct Packing {
 inline Packing packing_of(Mask m) { return {m.m}; }
 inline Floats packed(Floats a, Packing) { return a; }
 
+struct Filling {
+  Mask filled;
+};
+inline Filling filling_of(Mask chosen, Mask offered) { return {chosen & offered}; }
+inline Floats filled(Floats a, Filling filling, Floats b) { return select(filling.filled, a, b); }
+
 inline Floats load_numbers(const std::uint32_t* p) { return std::bit_cast<float>(*p); }
 inline void store_numbers(Floats a, std::uint32_t* p) { *p = std::bit_cast<std::uint32_t>(a.v); }
 inline Floats number(std::uint32_t a) { return std::bit_cast<float>(a); }
+inline Floats numbers_of_lanes() { return number(0); }
+inline Floats permuted(Floats a, Floats) { return a; }
 inline Mask same_numbers(Floats a, Floats b) {
   return {std::bit_cast<std::uint32_t>(a.v) == std::bit_cast<std::uint32_t>(b.v)};
 }

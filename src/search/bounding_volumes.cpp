@@ -84,7 +84,7 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
     // What words round is far less than what Phase adds to the length of a needle, unless cells are
     // very much longer than that.
     const double rounding = one ? 0 : 8 * made.format.step() / frame.per_length;
-    radius = std::max(radius, made.radius);
+    radius = std::max({radius, made.radius, made.ahead});
     drift = std::max(drift, std::max(made.overlap, made.radius) + rounding);
   }
   if (!gas.shear) return;

@@ -14,6 +14,7 @@ ClassCells::ClassCells(const MotionFrame& frame, const SizeClass& sizes, const C
       widest_half(static_cast<float>(0.5 * sizes.diameter * frame.per_length)),
       grid(its_grid),
       overlap(with_volume(kind, [&](auto volume) { return volume.overlap_of(its_grid); })),
+      ahead(overlap * with_volume(kind, [](auto volume) { return volume.ahead; })),
       cells(grid.size(), sizes.count) {
   const auto sides = grid.sides();
   const double side = std::max({sides[0], sides[1], sides[2]});

@@ -19,6 +19,7 @@ struct ClassCells {
   float widest_half;   ///< half the largest diameter [unit of length]
   CellGrid grid;
   double overlap;              ///< how far a needle may go beyond its cell; 0 for capsules [L]
+  double ahead;                ///< the same when it is placed [L]
   double most_fallen;          ///< by the frame of motions since its base, at most [L]
   kernels::WordFormat format;  ///< of the words in blocks
   float margin;                ///< of lengths, see kernels::Seeker [unit of length]

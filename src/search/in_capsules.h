@@ -20,6 +20,7 @@ struct InCapsules {
   static constexpr bool timed = false;
   static constexpr CellFit fit = CellFit::nearest;
 
+  static constexpr double ahead = 0;
   static double overlap_of(const CellGrid&) { return 0; }
 
   template <bool falls>

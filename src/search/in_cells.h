@@ -1,5 +1,8 @@
 // Needles in cells: the bounding volume of a needle is its cell and a fifth of its side around it.
 //
+// A needle that flies towards a cell and is nearly there is entered in it at once, where it can
+// stay longer.
+//
 // Why no pair is left out: until a needle is placed again, its centre stays within `overlap` of its
 // cell, and flies as its entry there says. The centres of two in contact are no farther apart than
 // half their lengths and the distance of their axes; so the other one's entry is in a cell that is
@@ -8,6 +11,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "src/memory/prefetch.h"
@@ -20,6 +24,9 @@ struct InCells {
   static constexpr bool timed = true;
   static constexpr CellFit fit = CellFit::at_least;
 
+  /// By so much of the overlap a needle may be outside of its cell when it is placed. All of it
+  /// would leave no room for rounding.
+  static constexpr double ahead = 0x0.fp0;
   /// A needle that goes to and fro across a border, or crosses a corner, need not be placed again
   /// so often. [L]
   static double overlap_of(const CellGrid& grid) {
@@ -30,7 +37,11 @@ struct InCells {
   template <bool falls>
   static Placement place(const ClassCells& own, const MotionFrame& frame,
                          const PresentNeedle& needle) {
-    const Cell cell = own.grid.cell_of(needle.centre);
+    const Vec3d velocity = needle.motion.motion.velocity(needle.motion.start);
+    const auto ahead = [&](double r, double v) { return r + std::copysign(own.ahead, v); };
+    const Vec3d& centre = needle.centre;
+    const Cell cell = own.grid.cell_of(
+        {ahead(centre.x, velocity.x), ahead(centre.y, velocity.y), ahead(centre.z, velocity.z)});
     return {cell, needle.path.centre, needle.path.velocity * (frame.per_length / frame.per_time),
             own.grid.time_to_leave(cell, needle.motion, own.overlap)};
   }

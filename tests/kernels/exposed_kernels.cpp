@@ -50,30 +50,43 @@ namespace shown {
 }  // namespace scalar
 #undef NEEDLEWORK_TARGET
 
-ExposedStep exposed_step(Isa isa, const Seeker& seeker, const PairColumns& pairs, float s,
-                         float h) {
-  switch (isa) {
-#define NEEDLEWORK_STEP(isa, space, target) \
+// Calls a function of the namespace of an instruction set.
+#define NEEDLEWORK_CASE(isa, space, target) \
   case Isa::isa:                            \
-    return space::shown::step_of(seeker, pairs, s, h);
-    NEEDLEWORK_FOR_EACH_SIMD(NEEDLEWORK_STEP)
-#undef NEEDLEWORK_STEP
-    default:
-      return scalar::shown::step_of(seeker, pairs, s, h);
+    return space::shown::NEEDLEWORK_CALL;
+#define NEEDLEWORK_SWITCH                     \
+  switch (isa) {                              \
+    NEEDLEWORK_FOR_EACH_SIMD(NEEDLEWORK_CASE) \
+    default:                                  \
+      return scalar::shown::NEEDLEWORK_CALL;  \
   }
+
+ExposedStep exposed_step(Isa isa, const Seeker& seeker, const PairColumns& pairs, float s, float h){
+#define NEEDLEWORK_CALL step_of(seeker, pairs, s, h)
+    NEEDLEWORK_SWITCH
+#undef NEEDLEWORK_CALL
 }
 
-RoughResults rough_results(Isa isa, float a, float b) {
-  switch (isa) {
-#define NEEDLEWORK_ROUGH(isa, space, target) \
-  case Isa::isa:                             \
-    return space::shown::rough_of(a, b);
-    NEEDLEWORK_FOR_EACH_SIMD(NEEDLEWORK_ROUGH)
-#undef NEEDLEWORK_ROUGH
-    default:
-      return scalar::shown::rough_of(a, b);
-  }
+RoughResults rough_results(Isa isa, float a, float b){
+#define NEEDLEWORK_CALL rough_of(a, b)
+    NEEDLEWORK_SWITCH
+#undef NEEDLEWORK_CALL
 }
+
+ExposedIntervals exposed_spread(Isa isa, const ExposedIntervals& all){
+#define NEEDLEWORK_CALL spread_of(all)
+    NEEDLEWORK_SWITCH
+#undef NEEDLEWORK_CALL
+}
+
+ExposedIntervals exposed_add(Isa isa, const ExposedIntervals& all, const ExposedIntervals& more) {
+#define NEEDLEWORK_CALL added(all, more)
+  NEEDLEWORK_SWITCH
+#undef NEEDLEWORK_CALL
+}
+
+#undef NEEDLEWORK_SWITCH
+#undef NEEDLEWORK_CASE
 
 }  // namespace needlework::kernels
 

@@ -22,4 +22,14 @@ struct RoughResults {
 /// a / b, the root of a and 1 over it, and the length of (a, b, 0), by rough operations.
 RoughResults rough_results(Isa isa, float a, float b);
 
+/// Intervals of time of pairs, one in each lane that is taken (1, else 0).
+struct ExposedIntervals {
+  float low[16], high[16], taken[16];
+  std::uint32_t pair[16];
+};
+/// spread() of as many as are taken.
+ExposedIntervals exposed_spread(Isa isa, const ExposedIntervals& all);
+/// add() of some to others.
+ExposedIntervals exposed_add(Isa isa, const ExposedIntervals& all, const ExposedIntervals& more);
+
 }  // namespace needlework::kernels

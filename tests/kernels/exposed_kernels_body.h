@@ -19,3 +19,29 @@ inline RoughResults rough_of(float a, float b) {
   for (int n = 0; n < 4; ++n) store_floats(values[n], lanes[n]);
   return {rough_error, lanes[0][0], lanes[1][0], lanes[2][0], lanes[3][0]};
 }
+
+inline Intervals in_lanes(const ExposedIntervals& all) {
+  return {load_floats(all.low), load_floats(all.high), load_numbers(all.pair),
+          load_floats(all.taken) > Floats(0.0f)};
+}
+
+inline ExposedIntervals out_of_lanes(const Intervals& all) {
+  ExposedIntervals out{};
+  store_floats(all.low, out.low);
+  store_floats(all.high, out.high);
+  store_numbers(all.pair, out.pair);
+  store_floats(select(all.taken, Floats(1.0f), Floats(0.0f)), out.taken);
+  return out;
+}
+
+inline ExposedIntervals spread_of(const ExposedIntervals& all) {
+  Intervals lanes = in_lanes(all);
+  spread(lanes, count_of(lanes.taken));
+  return out_of_lanes(lanes);
+}
+
+inline ExposedIntervals added(const ExposedIntervals& all, const ExposedIntervals& more) {
+  Intervals lanes = in_lanes(all);
+  add(lanes, in_lanes(more));
+  return out_of_lanes(lanes);
+}

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "tests/kernels/drawn_simd_pairs.h"
 #include "tests/support/oracle.h"
@@ -157,6 +158,37 @@ TEST_P(Bracket, OfAnySpeedsIsNeverTooLate) {
     }
   }
   EXPECT_GT(contacts, count / 200);
+}
+
+// Others of the same seeker share the lanes with the pair, and leave some of its time to wait for
+// one.
+TEST_P(Bracket, AmongOthersIsNeverTooLate) {
+  const test::PairFamily& family = GetParam();
+  Random random(seed + 9);
+  std::vector<PairRow> others;
+  std::size_t contacts = 0;
+  const std::size_t count = (family.thermal ? 30000 : 6000) / thin;
+  for (const test::NeedlePair& drawn : draw_pairs(family.name, count, seed + 9)) {
+    const SimdPair pair = simd_pair(random, drawn, any_halves(random));
+    if (!others.empty() && pair.truth.found) {
+      ++contacts;
+      std::vector<PairRow> rows(1 + random.below(24));
+      for (PairRow& row : rows) row = others[random.below(static_cast<int>(others.size()))];
+      // One like it, or several.
+      const std::size_t at = random.below(static_cast<int>(rows.size()));
+      for (std::size_t n = at; n < rows.size(); n += 1 + random.below(30)) rows[n] = pair.row;
+      for (const Isa isa : available()) {
+        const double from = bracketed(near_kernels(isa), pair.seeker, rows)[at];
+        ASSERT_LE(from / pair.unit, pair.truth.elapsed.hi)
+            << "pair " << at << " of " << rows.size() << ", of " << drawn.horizon << ", "
+            << name_of(isa) << ", seed " << seed << "\n"
+            << test::csv_line(contacts, drawn);
+      }
+    }
+    if (others.size() < 32) others.push_back(pair.row);
+    others[random.below(static_cast<int>(others.size()))] = pair.row;
+  }
+  EXPECT_GT(contacts, count / 100);
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, Bracket, testing::ValuesIn(test::pair_families()),

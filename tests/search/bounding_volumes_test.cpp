@@ -186,17 +186,37 @@ double share_of_cell(const Moving& moving, Needle i, Time t) {
   return share;
 }
 
+// How far from where a needle is it has been placed, as a share of what several threads lock for
+// it: its cell, along the axis along which it is farthest.
+double share_of_lock(const Moving& moving, Needle i) {
+  const ClassCells& volumes = moving.search.volumes().class_of(i);
+  const Vec3d r = needle_at(moving.gas, i, moving.now).r -
+                  volumes.grid.corner(moving.search.volumes().places[i].cell);
+  const auto sides = volumes.grid.sides();
+  const double at[3] = {r.x, r.y, r.z};
+  double farthest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    farthest = std::max({farthest, -at[axis], at[axis] - sides[axis]});
+  }
+  return std::max(0.0, farthest - volumes.margin) / moving.search.radius();
+}
+
 void expect_held(BoundingVolume volume, const Cloud& setting, double fullest) {
   Random random(seed);
   Moving moving(setting, volume, random);
   const auto share_of = volume == BoundingVolume::cell ? share_of_cell : share_of_capsule;
   const double step = 0.1 / setting.speeds.sigma;
-  double most = 0;
+  double most = 0, farthest = 0;
   for (int n = 0; n < steps; ++n) {
     moving.advance(step * random.uniform());
     for (int k = 0; k < 20; ++k) {
       const Needle i = moving.any();
-      if (k % 2 == 0) moving.place(i);
+      if (k % 2 == 0) {
+        moving.place(i);
+        const double share = share_of_lock(moving, i);
+        ASSERT_LE(share, 1) << "needle " << i << " is placed too far away, step " << n;
+        farthest = std::max(farthest, share);
+      }
       for (const double part : {0.0, random.uniform(), 1.0}) {
         const Time t = moving.gas.clock.add(moving.now, part * moving.left(i));
         const double share = share_of(moving, i, std::min(t, moving.until[i]));
@@ -206,6 +226,7 @@ void expect_held(BoundingVolume volume, const Cloud& setting, double fullest) {
     }
   }
   EXPECT_GT(most, fullest);
+  EXPECT_GT(farthest, volume == BoundingVolume::cell ? 0.9 : 0.5);
 }
 
 // Of each pair: how near its bounding volumes are, and within what they have to be found.

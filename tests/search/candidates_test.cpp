@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <ostream>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -342,6 +343,7 @@ TEST(Searches, NameTheCellsOfTheirNeedles) {
   Random random(seed);
   Gas gas = test::random_gas(random, 200, {5, 6, 7}, {});
   Gas mixture = test::random_gas(random, 300, {9, 10, 11}, {}, {4, 0.2, 0.2, 0.2});
+  std::size_t placed = 0, stayed = 0;
   for (const Gas* each : {&gas, &mixture}) {
     for (const SearchChoice& choice : test::search_choices()) {
       SCOPED_TRACE(choice.name());
@@ -355,13 +357,25 @@ TEST(Searches, NameTheCellsOfTheirNeedles) {
         ASSERT_LT(search->cell_index(i), search->cells());
         if (!grid || choice.setup.isa != kernels::Isa::scalar || !choice.uses_simd()) continue;
         const kernels::Flight& flight = each->records[i].flight;
-        const std::size_t here = grid->index_of(grid->cell_of(flight.r));
-        if (choice.search == "linked-cells") {
-          ASSERT_EQ(search->cell_index(i), here);
+        if (choice.search != "linked-cells") continue;
+        // Its own, or one that it flies to.
+        const Cell here = grid->cell_of(flight.r);
+        const auto next = [](double v) { return std::signbit(v) ? -1 : 1; };
+        std::set<std::size_t> cells;
+        for (int ahead = 0; ahead < 8; ++ahead) {
+          cells.insert(grid->index_of({here[0] + (ahead & 1 ? next(flight.v.x) : 0),
+                                       here[1] + (ahead & 2 ? next(flight.v.y) : 0),
+                                       here[2] + (ahead & 4 ? next(flight.v.z) : 0)}));
         }
+        ASSERT_TRUE(cells.contains(search->cell_index(i)));
+        stayed += search->cell_index(i) == grid->index_of(here);
+        ++placed;
       }
     }
   }
+  // A fifth of a side is near a border.
+  EXPECT_GT(stayed, placed / 3);
+  EXPECT_LT(stayed, placed * 9 / 10);
 }
 
 TEST(CellGrids, FitTheSideThatIsAskedFor) {

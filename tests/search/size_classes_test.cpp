@@ -114,6 +114,7 @@ TEST(SizeClasses, HaveCellsThatAreEachInOneOfTheCommonGrid) {
         EXPECT_GE(volumes.drift, each->overlap);
         EXPECT_GE(volumes.drift, each->radius);
         EXPECT_GE(volumes.radius, each->radius);
+        EXPECT_GE(volumes.radius, each->ahead);
       }
       for (Needle i{0}; i < gas.size(); ++i) {
         volumes.place(i, {}, BodyLengths{gas}.half_length(i));
