@@ -109,7 +109,7 @@ inline bool BoundingVolumes::place_one(Needle i, Time now, double half_length) {
   const Record& record = gas.records[i];
   const double elapsed = gas.clock.difference(now, record.time);
   rows->set_now(now);
-  const SlidingRows::Seen seen = rows->see(record, elapsed);
+  const SlidingRows::Seen seen = rows->see(record, elapsed, class_of(i).ahead);
   wraps[i] = seen.boxes;
   return frame.falls ? place_flight<true>(i, seen.flight, elapsed, now, half_length)
                      : place_flight<false>(i, seen.flight, elapsed, now, half_length);

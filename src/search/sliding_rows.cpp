@@ -40,21 +40,26 @@ double SlidingRows::place_of(std::int32_t row) const {
   return places_[row] + velocity_of(row + 0.5) * gas_.clock.difference(now_, base_);
 }
 
-SlidingRows::Seen SlidingRows::see(const Record& record, double elapsed) const {
-  const Vec3d centre = gas_.motion(record).centre(elapsed);
-  const Wrapped inside = box_.wrap(to_array(centre));
-  const std::int32_t row =
+SlidingRows::Seen SlidingRows::see(const Record& record, double elapsed, double ahead) const {
+  const auto motion = gas_.motion(record);
+  const Vec3d centre = motion.centre(elapsed);
+  // A body is in the row into whose cells it is placed.
+  const double forward = std::copysign(ahead, motion.velocity(elapsed).y);
+  const Wrapped inside = box_.wrap({centre.x, centre.y + forward, centre.z});
+  std::int32_t row =
       std::clamp(grid_.cell_of(vector_of(inside.place))[1], 0, grid_.counts()[1] - 1);
-  // Into the cells of the row.
   const double beyond = std::floor((inside.place[0] - place_of(row)) / gas_.box.edge(0));
   Seen out;
   out.boxes = shift_of(inside.boxes) + Shift{static_cast<std::int32_t>(beyond), 0, 0};
   out.flight = see_from(row, out.boxes, record, elapsed);
-  // Rounding may have put it on the border of the row above.
-  const double top = (row + 1) * grid_.sides()[1] * (1 - 0x1p-40);
-  const double y = out.flight.r.y + out.flight.v.y * elapsed;
-  if (y > top) out.flight.r.y -= y - top;
-  return out;
+  // Rounding may have put it beyond the border of this row, by far less than searches allow for.
+  const double step = grid_.sides()[1] * 0x1p-40;
+  for (;;) {
+    const Vec3d seen = FreeFlight(out.flight).centre(elapsed);
+    const std::int32_t entered = grid_.cell_of({seen.x, seen.y + forward, seen.z})[1];
+    if (entered == row) return out;
+    out.flight.r.y += entered < row ? step : -step;
+  }
 }
 
 kernels::Flight SlidingRows::see_from(std::int32_t row, const Shift& boxes, const Record& record,

@@ -29,12 +29,12 @@ class SlidingRows {
   /// Of what follows.
   void set_now(Time now);
 
-  /// A body as its row sees it.
+  /// A body as its row sees it: the one into whose cells it is placed, so far ahead of where it is.
   struct Seen {
     kernels::Flight flight;  ///< since its record
     Shift boxes;             ///< less than that of the record, along x modulo 2^32
   };
-  Seen see(const Record& record, double elapsed) const;
+  Seen see(const Record& record, double elapsed, double ahead) const;
   /// The same of a body that stays in this row, and where it has been wrapped by so many boxes.
   kernels::Flight see_from(std::int32_t row, const Shift& boxes, const Record& record,
                            double elapsed) const;
