@@ -116,7 +116,10 @@ class Box {
 
   /// A centre, at least 0 and less than the edge along each periodic axis.
   Wrapped wrap(const Vector& centre) const {
-    if (slides_) return wrap_in_rows(centre);
+    return slides_ ? wrap_in_rows(centre) : wrap_at_rest(centre);
+  }
+  /// The same where rows do not slide.
+  Wrapped wrap_at_rest(const Vector& centre) const {
     const Along x = wrap_along(0, centre[0]), y = wrap_along(1, centre[1]),
                 z = wrap_along(2, centre[2]);
     return {{x.place, y.place, z.place}, {x.boxes, y.boxes, z.boxes}};

@@ -169,15 +169,18 @@ kernels::BodyState Gas::present(Id id, const Record& record, Time now) const {
   return NeedleTrajectory(*this, id, record, slide, clock.difference(now, record.time)).at(0);
 }
 
-Shift renew_record(Gas& gas, Needle i, Time now, const kernels::BodyState& state, double extent) {
+namespace {
+
+// With the centre wrapped, and the velocity of that image.
+[[gnu::always_inline]] inline Shift renew_with(Gas& gas, Needle i, Time now,
+                                               const kernels::BodyState& state, double extent,
+                                               const Wrapped& wrapped, const Vec3d& velocity) {
   Record& record = gas.records[i];
-  std::optional<Box> room;
-  const Box& box = gas.box_at(now, room);
-  const auto [place, boxes] = box.wrap(to_array(state.r));
+  const auto& [place, boxes] = wrapped;
   gas.images[i] = add_boxes(gas, i, boxes);
   record.flight.r = vector_of(place);
   record.flight.u = normalised(state.u);
-  record.flight.v = state.v - box.image(boxes).velocity;
+  record.flight.v = velocity;
   record.flight.w = project_out(state.w, record.flight.u);
   set_rotation(record.flight);
   record.time = now;
@@ -185,6 +188,21 @@ Shift renew_record(Gas& gas, Needle i, Time now, const kernels::BodyState& state
   record.touch_count = 0;
   ++record.serial;
   return shift_of(boxes);
+}
+
+[[gnu::noinline]] Shift renew_in_rows(Gas& gas, Needle i, Time now,
+                                      const kernels::BodyState& state, double extent) {
+  const Box box = gas.box_at(now);
+  const Wrapped wrapped = box.wrap(to_array(state.r));
+  return renew_with(gas, i, now, state, extent, wrapped,
+                    state.v - box.image(wrapped.boxes).velocity);
+}
+
+}  // namespace
+
+Shift renew_record(Gas& gas, Needle i, Time now, const kernels::BodyState& state, double extent) {
+  if (gas.shear) return renew_in_rows(gas, i, now, state, extent);
+  return renew_with(gas, i, now, state, extent, gas.box.wrap_at_rest(to_array(state.r)), state.v);
 }
 
 }  // namespace needlework

@@ -51,10 +51,6 @@ struct Gas {
   Box box_at(Time now) const {
     return shear ? box.with_rows(shear->at(now.epoch, now.offset)) : box;
   }
-  /// The same without a copy where rows do not slide; `room` must outlive it.
-  const Box& box_at(Time now, std::optional<Box>& room) const {
-    return shear ? room.emplace(box_at(now)) : box;
-  }
   /// How fast the image of a needle flies past it. [L / time]
   Vec3d image_velocity(const Shift& shift) const {
     return {shear ? shear->velocity() * shift[1] : 0, 0, 0};

@@ -87,6 +87,7 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
     radius = std::max({radius, made.radius, made.ahead});
     drift = std::max(drift, std::max(made.overlap, made.radius) + rounding);
   }
+  moves_plainly_ = !gas.shear && !frame.falls;
   if (!gas.shear) return;
   rows = std::make_unique<SlidingRows>(gas, grid);
   wraps.resize(gas.size());
@@ -94,8 +95,9 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
 
 bool BoundingVolumes::place(Needle i, Time now, double half_length) {
   make_fit(now);
-  if (rows) return place_in_row(i, now, half_length);
-  return frame.falls ? place_one<true>(i, now, half_length) : place_one<false>(i, now, half_length);
+  return moves_plainly_ ? place_one<false>(i, now, half_length)
+         : rows         ? place_in_row(i, now, half_length)
+                        : place_one<true>(i, now, half_length);
 }
 
 template <bool falls>

@@ -113,6 +113,8 @@ struct BoundingVolumes {
   template <bool falls>
   bool place_flight(Needle i, const kernels::Flight& flight, double elapsed, Time now,
                     double half_length);
+
+  bool moves_plainly_ = true;  ///< without gravity, in cells at rest
 };
 
 template <class Volume>

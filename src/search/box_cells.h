@@ -24,9 +24,10 @@ std::vector<std::uint64_t> keys_of_cells(const Gas& gas, Time now,
                                          const std::array<double, 3>& cells, Key key) {
   std::vector<std::uint64_t> keys;
   keys.reserve(gas.size());
+  const Box box = gas.box_at(now);
   for (const Record& record : gas.records) {
     const Vec3d r = gas.motion_from(record, now).centre();
-    const std::array<double, 3> share = gas.box_at(now).share(to_array(r));
+    const std::array<double, 3> share = box.share(to_array(r));
     BoxCell cell;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       // A share just below a whole number is rounded up to it.

@@ -41,7 +41,8 @@ NearSearch::NearSearch(const Gas& gas, Counters& counters, const SearchSetup& se
       kind_(kind),
       parts_(std::make_unique<Parts>(*volumes_, kernels::near_kernels(setup.isa),
                                      setup.float_filter, counters)),
-      has_balls_(BallLists::suit(*volumes_)) {
+      has_balls_(BallLists::suit(*volumes_)),
+      scans_otherwise_(has_balls_ || volumes_->rows) {
   if (has_balls_) parts_->balls.emplace(*volumes_);
 }
 
@@ -50,7 +51,8 @@ NearSearch::NearSearch(const NearSearch& other, Counters& counters)
       kind_(other.kind_),
       parts_(std::make_unique<Parts>(*volumes_, other.parts_->kernels, other.parts_->filters,
                                      counters)),
-      has_balls_(false) {}
+      has_balls_(false),
+      scans_otherwise_(volumes_->rows != nullptr) {}
 
 NearSearch::NearSearch(NearSearch&&) noexcept = default;
 NearSearch::~NearSearch() = default;
@@ -76,9 +78,9 @@ void NearSearch::prefetch_ball(Needle i) const { parts_->balls->prefetch(i); }
 
 std::span<const Candidate> NearSearch::candidates(Needle i, const JustHit& just_hit, double ahead) {
   Parts& own = *parts_;
-  if (has_balls_) return own.find(*own.balls, i, just_hit, ahead);
-  if (!own.rows) return own.find(own.cells, i, just_hit, ahead);
-  return own.find(*own.rows, i, just_hit, ahead);
+  return !scans_otherwise_ ? own.find(own.cells, i, just_hit, ahead)
+         : has_balls_      ? own.find(*own.balls, i, just_hit, ahead)
+                           : own.find(*own.rows, i, just_hit, ahead);
 }
 
 template <class Source>

@@ -98,7 +98,8 @@ class NearSearch {
   std::shared_ptr<BoundingVolumes> volumes_;
   BoundingVolume kind_;  ///< that the search is named by
   std::unique_ptr<Parts> parts_;
-  bool has_balls_;  ///< whether there are lists of neighbours
+  bool has_balls_;        ///< whether there are lists of neighbours
+  bool scans_otherwise_;  ///< whether there are, or cells slide in rows
 };
 
 static_assert(Search<NearSearch>);
