@@ -332,7 +332,7 @@ NEEDLEWORK_INLINE std::size_t bracket_vector(const Seeker& seeker, const PairCol
                end = select(bounds.trusted, farthest, now.low);
   // The earliest time at which each pair may meet, of those that are settled.
   float from[floats_at_once];
-  store_floats(select(meet & (end < now.high), end, Floats(infinity)), from);
+  store_floats(select(meet & (end <= now.high), end, Floats(infinity)), from);
   now.high = minimum(end, now.high);
   now.taken = meet & bounds.trusted & (now.low <= now.high);
   // What is shorter is not worth another step, or nothing but what rounding makes of times.

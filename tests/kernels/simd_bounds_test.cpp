@@ -194,6 +194,30 @@ TEST_P(Bracket, AmongOthersIsNeverTooLate) {
 INSTANTIATE_TEST_SUITE_P(Families, Bracket, testing::ValuesIn(test::pair_families()),
                          [](const auto& info) { return family_id(info.param); });
 
+// Of phases that floats do not know; not even from a time that its margin does not change.
+TEST(BracketOfLargePhases, RulesNothingOut) {
+  using C = PairColumns;
+  Motion still{};
+  still.u[2] = still.p[0] = 1;
+  still.omega = 100;
+  still.half = 0.5f;
+  PairRow row{};
+  row[C::u_x] = row[C::p_y] = 1;
+  row[C::half] = 0.5f;
+  for (const float from : {0.0f, 500.0f, 1024.0f}) {
+    row[C::from] = from;
+    row[C::until] = 1024;
+    for (const Isa isa : available()) {
+      for (const std::size_t count : {1, 5, 40}) {
+        const std::vector<PairRow> rows(count, row);
+        for (const float found : bracketed(near_kernels(isa), seeker_of(still, 1024), rows)) {
+          EXPECT_LE(found, from) << name_of(isa);
+        }
+      }
+    }
+  }
+}
+
 // At least 99 % of the pairs, and times before 90 % of the contacts by less than a tenth.
 void expect_few_left(Isa isa) {
   Random random(seed);
