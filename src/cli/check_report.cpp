@@ -323,7 +323,8 @@ std::string until_text(const Scene::Until& until) {
 
 std::string expected_text(const runs::Explanation& e) {
   if (!e.expected && is_pushed(e.scene)) {
-    return "not known: the theory of a gas that cools does not apply to walls, gravity and driving";
+    return fmt::format("not known: the theory of a gas that cools does not apply to {}",
+                       e.scene.shear ? "uniform shear" : "walls, gravity and driving");
   }
   if (!e.expected) {
     return e.scene.until.wall_s ? "runs until wall_s is over" : "never ends, as far as theory goes";

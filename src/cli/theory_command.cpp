@@ -373,7 +373,7 @@ std::string boltzmann_text(const TheoryArguments& arguments,
 // Theory of a gas that is left to itself, in a periodic box, would look like one of any other.
 void require_homogeneous(const Scene& scene, const std::string& path) {
   const char* found = nullptr;
-  if (is_pushed(scene)) found = "[driving]";
+  if (is_pushed(scene)) found = scene.shear ? "[shear]" : "[driving]";
   if (!scene.walls.empty()) found = "[[walls]]";  // gravity needs some
   if (!found) return;
   throw InputError(fmt::format(
