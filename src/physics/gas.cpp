@@ -190,8 +190,8 @@ namespace {
   return shift_of(boxes);
 }
 
-[[gnu::noinline]] Shift renew_in_rows(Gas& gas, Needle i, Time now,
-                                      const kernels::BodyState& state, double extent) {
+[[gnu::noinline]] Shift renew_in_rows(Gas& gas, Needle i, Time now, const kernels::BodyState& state,
+                                      double extent) {
   const Box box = gas.box_at(now);
   const Wrapped wrapped = box.wrap(to_array(state.r));
   return renew_with(gas, i, now, state, extent, wrapped,
