@@ -147,6 +147,24 @@ function pressureOfRods({ groups, frames, count }) {
   ];
 }
 
+// What flights and collisions give together.
+function pressureTensor({ groups }) {
+  const { datasets, time } = groups.pressure_tensor;
+  const sum = (indices, sign) => {
+    const collisional = column(datasets[`collisional_${indices}`]);
+    return column(datasets[`kinetic_${indices}`]).map((kinetic, n) => sign * (kinetic + collisional[n]));
+  };
+  return [["xx", 1], ["yy", 1], ["zz", 1], ["yx", -1]].map(([indices, sign], n) => ({
+    name: `${sign < 0 ? "-" : ""}P_${indices}`, x: numbers(time), y: sum(indices, sign), colour: n, points: true,
+  }));
+}
+
+// None of a gas that is not sheared.
+function viscosity(run) {
+  const [curve] = plain("pressure_tensor", [["viscosity", "-P_yx / rate"]])(run);
+  return curve.y.some(Number.isFinite) ? [curve] : [];
+}
+
 // Since the start, and between a sample and the one before it.
 function timeInContact({ groups, count }) {
   const { datasets, time } = groups.contacts;
@@ -309,6 +327,15 @@ const timelines = [
   {
     group: "rods", title: "Pressure", y: "energy / volume", log: "xy", curves: pressureOfRods, robust: true,
     caption: "Mean since the sample before, beside that of an ideal gas of as many centres in the box.",
+  },
+  {
+    group: "pressure_tensor", title: "Pressure tensor", y: "energy / volume", log: "x", robust: true,
+    curves: pressureTensor, caption: "By flights and collisions, means since the sample before.",
+  },
+  {
+    group: "pressure_tensor", title: "Viscosity", y: "energy time / volume", log: "x", robust: true,
+    curves: viscosity,
+    caption: "Mean since the sample before.",
   },
   {
     group: "contacts", title: "Time in contact", y: "share of the time", log: "x", curves: timeInContact,
