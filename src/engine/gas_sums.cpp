@@ -92,9 +92,9 @@ struct MotionOf {
 // Calls sum(of) with what gives both of the records of a species.
 template <class Sum>
 auto with_motion(const Gas& gas, Time now, std::size_t species, const Sum& sum) {
-  return with_velocities(gas, now, [&](const auto& velocities_of) {
-    return with_weights(gas, species, [&](const auto& weight_of) {
-      return sum(MotionOf{velocities_of, weight_of});
+  return with_velocities(gas, now, [&]<class VelocitiesOf>(const VelocitiesOf& velocities_of) {
+    return with_weights(gas, species, [&]<class WeightOf>(const WeightOf& weight_of) {
+      return sum(MotionOf<VelocitiesOf, WeightOf>{velocities_of, weight_of});
     });
   });
 }
