@@ -13,6 +13,7 @@
 #include "src/machine/stop_request.h"
 #include "src/physics/vectors.h"
 #include "src/scene/box_edges.h"
+#include "src/scene/check.h"
 #include "src/scene/confinement.h"
 #include "src/scene/derived_numbers.h"
 #include "src/scene/rod_grid.h"
