@@ -169,6 +169,7 @@ std::vector<std::string> read_strings_with(hid_t object, hid_t type, hid_t space
   std::vector<char*> pointers(count, nullptr);
   check(read(memory.get(), pointers.data()), place);
   std::vector<std::string> strings;
+  strings.reserve(count);
   for (const char* pointer : pointers) strings.emplace_back(pointer ? pointer : "");
   check(H5Dvlen_reclaim(memory.get(), space, H5P_DEFAULT, pointers.data()), place);
   return strings;

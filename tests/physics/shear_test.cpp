@@ -179,7 +179,7 @@ TEST(SteadyShear, OfDiluteSpheres_long) {
   for (const auto& expected : all) {
     const double unit = 1 / (density * density);
     const Steady got = steady(spheres(1000, density, expected.epsilon), expected.f.value * unit, 0,
-                              80, 1500 / test::by_build(1, 20));
+                              80, 1500 / test::by_build(1.0, 20.0));
     expect_near({got.t_tr.value / unit, got.t_tr.error / unit}, expected.f, "F");
     expect_near(got.p_xx, expected.p_xx, "P_xx");
     expect_near(got.p_yy, expected.p_yy, "P_yy");
