@@ -141,7 +141,8 @@ TEST(BadSpecies, IsNamedWithItsLine) {
       {"[[needles]]\ncount = 5", "s.toml: line 1: [[needles]]: expected [needles], once"},
       {"[[specis]]\ncount = 5",
        "s.toml: line 1: [[specis]]: expected one of the sections needles, species, initial, "
-       "collisions, pairs, walls, forces, shear, driving, engine, until, output, did you mean species?"},
+       "collisions, pairs, walls, forces, shear, driving, engine, until, output, did you mean "
+       "species?"},
       {least_of("needles.count = 5"), "s.toml: line 7: needles.count = 5: " + not_both},
       {least_of("needles.k = 6"), "s.toml: line 7: needles.k = 6: " + not_both},
       {least_species + "[initial]\nt_tr = 1", "s.toml: line 8: initial.t_tr = 1: " + not_both},
