@@ -1,6 +1,7 @@
 #include "src/box/shear.h"
 
 #include <cmath>
+#include <type_traits>
 
 namespace needlework {
 
@@ -25,6 +26,7 @@ void Shear::set_epoch(double length) {
   }
 }
 
+template <class Real>
 RowSlide Shear::at(std::int64_t epoch, double offset) const {
   __extension__ using Fraction = unsigned __int128;
   const auto epochs = static_cast<std::uint64_t>(epoch);
@@ -34,15 +36,24 @@ RowSlide Shear::at(std::int64_t epoch, double offset) const {
                      static_cast<std::uint32_t>(static_cast<std::uint64_t>(boxes_per_epoch_)) *
                          static_cast<std::uint32_t>(epochs);
   const auto first = static_cast<std::uint64_t>(high), second = static_cast<std::uint64_t>(low);
+  const bool backwards = velocity_ < 0;
+  const std::uint32_t boxes = backwards ? 0u - whole : whole;
+  if constexpr (std::is_same_v<Real, double>) {
+    const double slid =
+        static_cast<double>(first >> 11) * 0x1p-53 * edge_ + std::abs(velocity_) * offset;
+    return reduced(velocity_, DoubleDouble((backwards ? -slid : slid) + start_), boxes, edge_);
+  }
   // In parts that doubles hold.
   const DoubleDouble share =
       DoubleDouble(static_cast<double>(first >> 11) * 0x1p-53) +
       DoubleDouble(static_cast<double>((first & 0x7ff) << 42 | second >> 22) * 0x1p-106);
   DoubleDouble slid = share * DoubleDouble(edge_) + two_prod(std::abs(velocity_), offset);
-  const bool backwards = velocity_ < 0;
   if (backwards) slid = -slid;
-  return reduced(velocity_, slid + DoubleDouble(start_), backwards ? 0u - whole : whole, edge_);
+  return reduced(velocity_, slid + DoubleDouble(start_), boxes, edge_);
 }
+
+template RowSlide Shear::at<double>(std::int64_t, double) const;
+template RowSlide Shear::at<DoubleDouble>(std::int64_t, double) const;
 
 RowSlide reduced(double velocity, const DoubleDouble& offset, std::uint32_t boxes, double edge) {
   const double more = std::floor(offset.hi / edge);

@@ -36,7 +36,9 @@ class Shear {
   double rate() const { return rate_; }
   /// The slide at time 0. [L]
   double start() const { return start_; }
-  /// At the time `offset` after the begin of an epoch.
+  /// At the time `offset` after the begin of an epoch: as double, with a slide that is rounded to
+  /// one.
+  template <class Real = DoubleDouble>
   RowSlide at(std::int64_t epoch, double offset) const;
   /// Rows slide by fewer than 2^31 boxes in an epoch.
   bool is_followable() const { return boxes_per_epoch_ < 0x1p31; }

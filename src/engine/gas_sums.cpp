@@ -144,6 +144,14 @@ Tensor carried_in_flights(const Gas& gas, Time now, int threads) {
   return {{{sums[0], sums[1], sums[2]}, {sums[1], sums[3], sums[4]}, {sums[2], sums[4], sums[5]}}};
 }
 
+double work_of_flow_in_flights(const Gas& gas, Time now, int threads) {
+  const auto [carried] = exact_sums(gas.records, threads, [&](const Record& record) {
+    const auto [mass, cc] = flight_carries(gas, needle_of(gas, record), now);
+    return std::array{mass * cc[0][1]};
+  });
+  return -gas.shear->rate() * carried;
+}
+
 std::vector<SpeciesTotals> species_totals(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
   std::vector<SpeciesTotals> out;
   for (std::size_t index = 0; index < sums.size(); ++index) {

@@ -38,6 +38,8 @@ struct FlightCarries {
 FlightCarries flight_carries(const Gas& gas, Needle i, Time now);
 /// The sum of m c c t over the flights of all needles from their records to `now`. [energy time]
 Tensor carried_in_flights(const Gas& gas, Time now, int threads);
+/// What uniform shear does to the energy in these flights. [energy]
+double work_of_flow_in_flights(const Gas& gas, Time now, int threads);
 
 std::vector<SpeciesTotals> species_totals(const Gas& gas, const std::vector<SumsOfSquares>& sums);
 /// The energy of all needles; where there is gravity along axes with walls, counted from those to

@@ -167,9 +167,9 @@ Run::Run(const Scene& scene, Gas initial) : Run(scene) {
   if (sorted) reorder(gas, order_in_space(gas, now));
 }
 
-void Run::open_window(const std::vector<SumsOfSquares>& sums) {
+void Run::open_window(const std::vector<SumsOfSquares>& sums, double work) {
   expect_energy();
-  work_at_opening = work_beside_events(sums);
+  work_at_opening = work;
   energy_shares.settle(energy, tally);
   energy.open(energy_of(gas, sums), energy_of_motion(gas, sums), tally.energy);
   temperature_integral.note(gas.clock, now, translational_temperature(gas, sums));
@@ -202,7 +202,8 @@ void Run::pass_window() {
                     gas.clock.since_start(now));
   }
   open_window_and_note_drift();
-  if (effects.stress) stress_batches.pass_window(gas.clock.since_start(now), stress_sums());
+  if (effects.stress)
+    stress_batches.pass_window(gas.clock.since_start(now), [&] { return stress_sums(); });
   std::uint64_t events = tally.collisions;
   for (const SourceTally& source : tally.by_source) events += source.events;
   windows.count(events);
@@ -210,8 +211,9 @@ void Run::pass_window() {
 
 void Run::open_window_and_note_drift() {
   const std::vector<SumsOfSquares> sums = sums_now();
-  const double by_account = energy_by_account(sums);
-  open_window(sums);
+  const double work = work_beside_events(sums);
+  const double by_account = present_energy() + (work - work_at_opening);
+  open_window(sums, work);
   energy.note_drift_from(by_account);
 }
 
@@ -228,7 +230,7 @@ double Run::energy_drift() const {
 double Run::work_beside_events(const std::vector<SumsOfSquares>& sums) const {
   const double pull = work_of_pull(gas, sums);
   if (!gas.shear) return pull;
-  return pull - gas.shear->rate() * carried_in_flights(gas, now, team.threads())[0][1];
+  return pull + work_of_flow_in_flights(gas, now, team.threads());
 }
 
 StressSums Run::stress_sums() const {
@@ -280,8 +282,7 @@ EnergyBudget Run::energy_budget() const {
     out.gravity = (work_of_pull(gas, sums_now()) - work_at_start) / needles;
   }
   if (gas.shear) {
-    const double in_flights =
-        -gas.shear->rate() * carried_in_flights(gas, now, team.threads())[0][1];
+    const double in_flights = work_of_flow_in_flights(gas, now, team.threads());
     out.shear = (energy_shares.flow(energy, tally) + in_flights) / needles;
   }
   for (std::size_t n = 0; n < sources.size(); ++n) {

@@ -55,7 +55,10 @@ class Run {
   double energy_drift() const;
 
   /// Opens a window for the present state.
-  void open_window() { open_window(sums_now()); }
+  void open_window() {
+    const std::vector<SumsOfSquares> sums = sums_now();
+    open_window(sums, work_beside_events(sums));
+  }
   /// The same at the end of a window, of which the drift of the energy is noted.
   void pass_window();
   /// Whether no two needles can ever collide and nothing else can happen either, so that time may
@@ -140,7 +143,7 @@ class Run {
 
  private:
   std::vector<SumsOfSquares> sums_now() const { return sums_of_squares(gas, now, team.threads()); }
-  void open_window(const std::vector<SumsOfSquares>& sums);
+  void open_window(const std::vector<SumsOfSquares>& sums, double work);
   /// The same after a time in which events and gravity have changed the energy, of which the drift
   /// is noted.
   void open_window_and_note_drift();

@@ -44,6 +44,8 @@ kernels::Isa isa_of(const std::string& name) {
 // The parts of the loop that the scene asks for, for a gas of this density.
 LoopChoice choice_of(const Scene& scene, const Run& run, double density) {
   const int threads = std::max(1, scene.engine.threads.value_or(1));
+  Vector divided = run.gas.box.edges();
+  if (run.gas.shear) divided[0] = 0;  // rows of cells stay whole
   return {.search = chosen_search(scene.engine.search, density, run.gas.composition,
                                   scene.shear.has_value()),
           .calendar = chosen_calendar(scene.engine.queue, threads),
@@ -56,8 +58,8 @@ LoopChoice choice_of(const Scene& scene, const Run& run, double density) {
                     .capsule_radius = scene.engine.capsule_radius,
                     .by_class = scene.engine.search == "auto",
                     .float_filter = accuracy_of(scene.engine).float_filter,
-                    .count_multiples = multiples_to_divide(run.gas.box.edges(),
-                                                           static_cast<std::uint32_t>(threads))},
+                    .count_multiples =
+                        multiples_to_divide(divided, static_cast<std::uint32_t>(threads))},
           .replaced = {}};
 }
 

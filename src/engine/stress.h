@@ -77,10 +77,11 @@ class StressBatches {
     double time = 0;
     StressSums sums;
   };
-  /// At the end of each window.
-  void pass_window(double time, const StressSums& sums) {
+  /// At the end of each window; sums() is called for those that are the end of a batch.
+  template <class Sums>
+  void pass_window(double time, const Sums& sums) {
     if (++windows_ % every_ != 0) return;
-    boundaries_.push_back({time, sums});
+    boundaries_.push_back({time, sums()});
     if (boundaries_.size() < most) return;
     for (std::size_t n = 1; n < most; n += 2) boundaries_[n / 2] = boundaries_[n];
     boundaries_.resize(most / 2);

@@ -458,10 +458,11 @@ auto SubdomainThread<S, M>::earlier_around(const Vec3d& r, CellIndex centre, Cel
 template <Search S, Model M>
 auto SubdomainThread<S, M>::take(Needle i, const Event& event, TimeKey key) const -> Taken {
   const Record& record = phase_.run.gas.records[i];
-  const Vec3d r = phase_.run.gas.motion_from(record, event.time).centre();
+  const Gas& gas = phase_.run.gas;
+  const Vec3d r = gas.across_flow(gas.motion_from(record, event.time).centre());
   const std::size_t cell = phase_.causality_log.cell_of(r);
   phase_.causality_log.prefetch(cell);
-  return {{key, r, phase_.run.gas.fastest_of(record), !event.has_partner(), event.time}, cell};
+  return {{key, r, gas.fastest_of(record), !event.has_partner(), event.time}, cell};
 }
 
 // The box of cells around the cell of a needle at r and the cells in which it may be placed.

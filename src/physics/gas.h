@@ -47,9 +47,11 @@ struct Gas {
     clock = its_clock;
     if (shear) shear->set_epoch(clock.epoch_length());
   }
-  /// The box at a time. Images, and what is wrapped, are those of that time.
+  /// The box at a time. Images, and what is wrapped, are those of that time. As double, it is for
+  /// searches, which have room for a slide that is rounded.
+  template <class Real = DoubleDouble>
   Box box_at(Time now) const {
-    return shear ? box.with_rows(shear->at(now.epoch, now.offset)) : box;
+    return shear ? box.with_rows(shear->at<Real>(now.epoch, now.offset)) : box;
   }
   /// How fast the image of a needle flies past it. [L / time]
   Vec3d image_velocity(const Shift& shift) const {
@@ -88,9 +90,16 @@ struct Gas {
   /// wrapped.
   kernels::BodyState present(Needle i, Time now) const { return present(ids[i], records[i], now); }
   kernels::BodyState present(Id id, const Record& record, Time now) const;
-  /// The centre moves no faster until the record is replaced. [L / time]
+  /// Of a place or a velocity what is the same for all images but for whole edges: all of it or,
+  /// where rows of boxes slide along x, the rest.
+  Vec3d across_flow(const Vec3d& a) const { return {shear ? 0 : a.x, a.y, a.z}; }
+  /// The centre moves no faster until the record is replaced; where rows of boxes slide, across the
+  /// flow. [L / time]
   double fastest_of(const Record& record) const {
-    const double flight = motion(record).fastest(0, clock.difference(record.renewal, record.time));
+    kernels::Flight across = record.flight;
+    across.v = across_flow(across.v);
+    const double flight = FreeFlight(across, falls ? &gravity : nullptr)
+                              .fastest(0, clock.difference(record.renewal, record.time));
     return slides && record.is_sliding() ? flight + record.first_touch.gap : flight;
   }
   /// Makes room for so many needles, in columns too.

@@ -21,12 +21,18 @@ using kernels::Motion;
 // third of a kilobyte each.
 constexpr double cells_per_needle = 2;
 
-// The grid that a class wishes for.
+// The grid that a class wishes for. Cells that slide in rows are by `tall` longer across them than
+// others, and shorter along the other axes, as each row takes a look of its own.
 CellGrid grid_for(const Gas& gas, const SearchSetup& setup, const SizeClass& one) {
   if (setup.cell_side) return CellGrid(gas.box.edges(), one.cell_side, one.count);
-  const CellFit fit = with_volume(one.kind, [](auto volume) { return volume.fit; });
-  return CellGrid(gas.box.edges(), one.cell_side, one.count, setup.count_multiples,
-                  cells_per_needle, fit);
+  return with_volume(one.kind, [&](auto volume) {
+    Vector edges = gas.box.edges();
+    const double tall = gas.shear ? volume.tall : 1, wide = 1 / std::sqrt(tall);
+    for (std::size_t axis = 0; axis < 3; ++axis) edges[axis] /= axis == 1 ? tall : wide;
+    const CellGrid out(edges, one.cell_side, one.count, setup.count_multiples, cells_per_needle,
+                       volume.fit);
+    return gas.shear ? CellGrid::of_counts(gas.box.edges(), out.counts()) : out;
+  });
 }
 
 // The grid whose cells can be divided into those of all classes.
@@ -77,8 +83,10 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
   for (const SizeClass& each : sizes) wished.push_back(grid_for(gas, setup, each));
   const bool one = wished.size() == 1;
   grid = one ? wished.front() : coarsest(wished, gas.box.edges());
+  if (gas.shear)
+    grid = CellGrid::of_counts(gas.box.edges(), {1, grid.counts()[1], grid.counts()[2]});
   for (std::size_t c = 0; c < wished.size(); ++c) {
-    const CellGrid its_grid = one ? grid : division_near(gas, grid, wished[c]);
+    const CellGrid its_grid = one ? wished[c] : division_near(gas, grid, wished[c]);
     classes.push_back(std::make_unique<ClassCells>(frame, sizes[c], its_grid));
     const ClassCells& made = *classes.back();
     // What words round is far less than what Phase adds to the length of a needle, unless cells are
@@ -88,55 +96,81 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
     drift = std::max(drift, std::max(made.overlap, made.radius) + rounding);
   }
   moves_plainly_ = !gas.shear && !frame.falls;
-  if (!gas.shear) return;
-  rows = std::make_unique<SlidingRows>(gas, grid);
-  wraps.resize(gas.size());
+  is_of_one_grid_ = one && !gas.shear;
+  if (gas.shear) wraps.resize(gas.size());
 }
 
 bool BoundingVolumes::place(Needle i, Time now, double half_length) {
   make_fit(now);
   return moves_plainly_ ? place_one<false>(i, now, half_length)
-         : rows         ? place_in_row(i, now, half_length)
+         : gas.shear    ? place_in_row(i, now, half_length)
                         : place_one<true>(i, now, half_length);
 }
 
 template <bool falls>
 inline bool BoundingVolumes::place_one(Needle i, Time now, double half_length) {
   const Record& record = gas.records[i];
-  return place_flight<falls>(i, record.flight, gas.clock.difference(now, record.time), now,
-                             half_length);
-}
-
-[[gnu::noinline]] bool BoundingVolumes::place_in_row(Needle i, Time now, double half_length) {
-  const Record& record = gas.records[i];
   const double elapsed = gas.clock.difference(now, record.time);
-  rows->set_now(now);
-  const SlidingRows::Seen seen = rows->see(record, elapsed, class_of(i).ahead);
-  wraps[i] = seen.boxes;
-  return frame.falls ? place_flight<true>(i, seen.flight, elapsed, now, half_length)
-                     : place_flight<false>(i, seen.flight, elapsed, now, half_length);
+  const PresentNeedle needle = present_needle<falls>(record.flight, elapsed, now, half_length);
+  ClassCells& own = class_of(i);
+  return with_volume(own.kind, [&]<class Volume>(Volume) {
+    const Placement placed = Volume::template place<falls>(own, frame, needle);
+    return enter_placed<Volume>(own, i, needle, placed, now);
+  });
 }
 
 template <bool falls>
-[[gnu::always_inline]] inline bool BoundingVolumes::place_flight(Needle i,
-                                                                 const kernels::Flight& flight,
-                                                                 double elapsed, Time now,
-                                                                 double half_length) {
+[[gnu::always_inline]] inline PresentNeedle BoundingVolumes::present_needle(
+    const kernels::Flight& flight, double elapsed, Time now, double half_length) const {
   const MotionFrom<FreeFlight> motion{frame.flight_of<falls>(flight), elapsed};
   const Vec3d centre = motion.centre();
-  const MotionFrame::Path path = frame.path_of<falls>(centre, motion.velocity(), now);
-  ClassCells& own = class_of(i);
-  return with_volume(own.kind, [&]<class Volume>(Volume) {
-    const Placement placed =
-        Volume::template place<falls>(own, frame, PresentNeedle{motion, centre, path, half_length});
-    const bool crosses = enter(own, i, placed.cell);
-    places[i].next_event = gas.clock.add(now, placed.stay);
-    motions[i].half = static_cast<float>(half_length * frame.per_length);
-    assert(fits_words(*this, i, placed.centre));
-    write_entry<Volume>(own, i, placed.centre, placed.direction, now);
-    set_motion(i, elapsed, path, now);
-    return crosses;
+  return {motion, centre, frame.path_of<falls>(centre, motion.velocity(), now), half_length};
+}
+
+template <class Volume>
+[[gnu::always_inline]] inline bool BoundingVolumes::enter_placed(ClassCells& own, Needle i,
+                                                                 const PresentNeedle& needle,
+                                                                 const Placement& placed,
+                                                                 Time now) {
+  const bool crosses = enter(own, i, placed.cell);
+  places[i].next_event = gas.clock.add(now, placed.stay);
+  motions[i].half = static_cast<float>(needle.half_length * frame.per_length);
+  assert(fits_words(*this, i, placed.centre));
+  write_entry<Volume>(own, i, placed.centre, placed.direction, now);
+  set_motion(i, needle.motion.start, needle.path, now);
+  return crosses;
+}
+
+[[gnu::noinline]] bool BoundingVolumes::place_in_row(Needle i, Time now, double half_length) {
+  return with_volume(class_of(i).kind, [&]<class Volume>(Volume) {
+    return frame.falls ? place_in_row_as<Volume, true>(i, now, half_length)
+                       : place_in_row_as<Volume, false>(i, now, half_length);
   });
+}
+
+// In the row that holds the cell in which it is placed. That of a capsule depends on how fast its
+// row flies: the capsule of one that finds no such row is where it is now.
+template <class Volume, bool falls>
+bool BoundingVolumes::place_in_row_as(Needle i, Time now, double half_length) {
+  ClassCells& own = class_of(i);
+  const Record& record = gas.records[i];
+  const SlidingRows::Present rows(*own.rows, now);
+  const double elapsed = gas.clock.difference(now, record.time);
+  double ahead = std::copysign(own.ahead, gas.motion(record).velocity(elapsed).y);
+  for (int turn = 0;; ++turn) {
+    const SlidingRows::Seen seen = rows.see(record, elapsed, ahead);
+    const PresentNeedle needle = present_needle<falls>(seen.flight, elapsed, now, half_length);
+    Placement placed = turn < 2 ? Volume::template place<falls>(own, frame, needle)
+                                : Volume::template place_here<falls>(own, frame, needle);
+    if (placed.cell[1] != seen.row) {
+      ahead = turn == 0 ? placed.centre.y - needle.centre.y : 0;
+      continue;
+    }
+    wraps[i] = seen.boxes;
+    // In so long, the next row gets no farther than to the next cells but one.
+    placed.stay = std::min(placed.stay, 2 * own.grid.sides()[0] / std::abs(own.rows->slide()));
+    return enter_placed<Volume>(own, i, needle, placed, now);
+  }
 }
 
 void BoundingVolumes::prepare(Time now, int threads) {
@@ -149,7 +183,7 @@ void BoundingVolumes::renumber(const std::vector<Needle>& ranks) {
   const std::vector<Needle> order = ranks_of(ranks);
   permute(places, order);
   permute(motions, order);
-  if (rows) permute(wraps, order);
+  if (gas.shear) permute(wraps, order);
   distances.renumber(order);
   for (const auto& each : classes) each->cells.renumber(ranks);
 }
@@ -157,7 +191,9 @@ void BoundingVolumes::renumber(const std::vector<Needle>& ranks) {
 // Chooses the unit of time and the origin of times in blocks and motions.
 void BoundingVolumes::begin_again(Time now) {
   begin_frame(now);
-  if (rows) rows->begin_again(now);
+  for (const auto& each : classes) {
+    if (each->rows) each->rows->begin_again(now);
+  }
 }
 
 void BoundingVolumes::begin_frame(Time now) {
@@ -168,10 +204,13 @@ void BoundingVolumes::begin_frame(Time now) {
 
 // Of needles that stay in their cells.
 void BoundingVolumes::carry_rows(Time now) {
-  const std::vector<std::int32_t> boxes = rows->carry(now);
-  for (Needle i{0}; i < gas.size(); ++i) {
-    const std::int32_t row = grid.wrap(places[i].cell[1], 1);
-    wraps[i] = wraps[i] + Shift{boxes[static_cast<std::size_t>(row)], 0, 0};
+  for (const auto& each : classes) {
+    const std::vector<std::int32_t> boxes = each->rows->carry(now);
+    for (Needle i{0}; i < gas.size(); ++i) {
+      if (&class_of(i) != each.get()) continue;
+      const auto row = static_cast<std::size_t>(places[i].cell[1]);
+      wraps[i] = wraps[i] + Shift{boxes[row], 0, 0};
+    }
   }
 }
 
@@ -179,19 +218,21 @@ void BoundingVolumes::carry_rows(Time now) {
 // digits of them.
 void BoundingVolumes::rebase(Time now, int threads) {
   begin_frame(now);
-  if (rows) carry_rows(now);
+  if (gas.shear) carry_rows(now);
   kernels::in_parallel(gas.size(), threads, [&](std::size_t begin, std::size_t end) {
     for (Needle i(begin); i < end; ++i) {
       if (!places[i].is_entered()) continue;
       const Record& record = gas.records[i];
       const double elapsed = gas.clock.difference(now, record.time);
+      ClassCells& own = class_of(i);
       const kernels::Flight flight =
-          rows ? rows->see_from(places[i].cell[1], wraps[i], record, elapsed) : record.flight;
+          own.rows ? SlidingRows::Present(*own.rows, now)
+                         .see_from(places[i].cell[1], wraps[i], record, elapsed)
+                   : record.flight;
       const MotionFrom<FreeFlight> present{FreeFlight(flight, gas.falls ? &gas.gravity : nullptr),
                                            elapsed};
       const MotionFrame::Path path = frame.path_of(present.centre(), present.velocity(), now);
       set_motion(i, present.start, path, now);
-      ClassCells& own = class_of(i);
       with_volume(own.kind, [&]<class Volume>(Volume) {
         // The centre fits its words, except that of a needle that has just collided and was taken
         // to the other side of the box: it is placed again before any needle searches.
@@ -237,16 +278,11 @@ bool BoundingVolumes::enter(ClassCells& own, Needle i, const Cell& cell) {
   return entered;
 }
 
-Shift BoundingVolumes::boxes_between_rows(Needle i, Needle j, const Cell& seen,
-                                          const Shift& shift) const {
-  const std::int32_t slid = rows->beside(places[i].cell[1], seen[1]).boxes;
-  return shift + Shift{slid, 0, 0} + wraps[i] - wraps[j];
-}
-
 // What contains the needle's cell.
 Cell BoundingVolumes::cell_around(Needle i) const {
   const std::array<std::int32_t, 3> all = class_of(i).grid.counts(), common = grid.counts();
   Cell out = places[i].cell;
+  if (gas.shear) out = class_of(i).grid.image_of(out, {0, wraps[i][1], wraps[i][2]});
   for (int axis = 0; axis < 3; ++axis) {
     const std::int32_t parts = all[axis] / common[axis];
     out[axis] = (out[axis] - (out[axis] < 0 ? parts - 1 : 0)) / parts;

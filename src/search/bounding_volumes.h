@@ -10,6 +10,7 @@
 //
 // Needles of each size class (size_classes.h) have bounding volumes, and cells, of their own. The
 // cells of all classes are parts of the cells of one common grid, by which threads divide the box.
+// Where cells slide in rows along x, each cell of the common grid holds whole rows.
 #pragma once
 
 #include <array>
@@ -23,11 +24,11 @@
 #include "src/search/cell_grid.h"
 #include "src/search/class_cells.h"
 #include "src/search/contact_distances.h"
+#include "src/search/look.h"
 #include "src/search/motion_frame.h"
 #include "src/search/needle_cells.h"
 #include "src/search/setup.h"
 #include "src/search/size_classes.h"
-#include "src/search/sliding_rows.h"
 
 namespace needlework {
 
@@ -66,9 +67,7 @@ struct BoundingVolumes {
     return *classes[class_of_extent(sizes, 2 * gas.body(i).reach())];
   }
   /// The cell of the common grid in which needle i has been placed, in the frame of its record.
-  Cell common_cell_of(Needle i) const {
-    return classes.size() == 1 ? places[i].cell : cell_around(i);
-  }
+  Cell common_cell_of(Needle i) const { return is_of_one_grid_ ? places[i].cell : cell_around(i); }
 
   // What place() is made of, for other ways to place bodies.
 
@@ -85,22 +84,18 @@ struct BoundingVolumes {
   /// All but the half length, which does not depend on the units of time. `elapsed` is the time
   /// since the needle's record.
   void set_motion(Needle i, double elapsed, const MotionFrame::Path& path, Time now);
-  /// The boxes to be added to the record of j, which i has found in this cell of a row, so many
-  /// boxes from that of j.
-  Shift boxes_between_rows(Needle i, Needle j, const Cell& seen, const Shift& shift) const;
 
   const Gas& gas;
   MotionFrame frame;
   ContactDistances distances;
   std::vector<std::unique_ptr<ClassCells>> classes;  ///< at least one
   std::vector<SizeClass> sizes;                      ///< of the same
-  CellGrid grid;                                     ///< the common grid: of one class, its own
+  CellGrid grid;      ///< the common grid: of one class that does not slide, its own
   double radius = 0;  ///< how far from where a needle is it may be placed, at most [L]
   double drift = 0;   ///< how far from its cell a needle may come, at most [L]
   LargeArray<Place> places;
   LargeArray<kernels::Motion> motions;
-  std::unique_ptr<SlidingRows> rows;  ///< if cells slide in rows
-  LargeArray<Shift> wraps;            ///< then: boxes subtracted from each record's centre
+  LargeArray<Shift> wraps;  ///< if cells slide in rows: boxes subtracted from a record's centre
 
  private:
   void carry_rows(Time now);
@@ -110,11 +105,17 @@ struct BoundingVolumes {
   template <bool falls>
   bool place_one(Needle i, Time now, double half_length);
   bool place_in_row(Needle i, Time now, double half_length);
+  template <class Volume, bool falls>
+  bool place_in_row_as(Needle i, Time now, double half_length);
   template <bool falls>
-  bool place_flight(Needle i, const kernels::Flight& flight, double elapsed, Time now,
-                    double half_length);
+  PresentNeedle present_needle(const kernels::Flight& flight, double elapsed, Time now,
+                               double half_length) const;
+  template <class Volume>
+  bool enter_placed(ClassCells& own, Needle i, const PresentNeedle& needle, const Placement& placed,
+                    Time now);
 
-  bool moves_plainly_ = true;  ///< without gravity, in cells at rest
+  bool moves_plainly_ = true;   ///< without gravity, in cells at rest
+  bool is_of_one_grid_ = true;  ///< places are in cells of the common grid
 };
 
 template <class Volume>

@@ -21,24 +21,29 @@ kernels::Scan CellScan::look(Needle i, double ahead) {
   const ClassCells& own = volumes_.class_of(i);
   views_.clear();
   return with_volume(own.kind, [&]<class Own>(Own) {
-    set_first<Own>(own, i, ahead);
+    set_first<Own>(own, i, ahead, looks_.front());
     return looks_.size() == 1 ? look_into_one_class<Own>(ahead) : look_into_classes<Own>(i, ahead);
   });
 }
 
-kernels::Scan CellScan::look_into_rows(Needle i, double ahead) {
-  const ClassCells& own = volumes_.class_of(i);
-  views_.clear();
-  return with_volume(own.kind, [&]<class Own>(Own) {
-    set_first<Own>(own, i, ahead);
-    return look_into_rows<Own>(ahead);
-  });
+kernels::Scan RowScan::look(Needle i, double ahead) {
+  return with_volume(volumes_.class_of(i).kind,
+                     [&]<class Own>(Own) { return look_into_rows<Own>(i, ahead, now_); });
+}
+
+Shift RowScan::shift_in_rows(Needle i, Needle j, std::uint32_t view,
+                             const Shift& between_cells) const {
+  const auto is_in = [&](const Look& look) {
+    return view >= look.first_view && view < look.first_view + look.views;
+  };
+  std::size_t n = 0;
+  while (!is_in(looks_[n])) ++n;
+  return between_cells + Shift{looks_[n].boxes, 0, 0} + volumes_.wraps[i] - volumes_.wraps[j];
 }
 
 template <class Own>
 [[gnu::always_inline]] inline void CellScan::set_first(const ClassCells& own, Needle i,
-                                                       double ahead) {
-  Look& first = looks_.front();
+                                                       double ahead, Look& first) {
   first.cells = &own;
   first.origin = volumes_.places[i].cell;
   first.touching = volumes_.distances.largest(i, own.widest_half);
@@ -113,46 +118,73 @@ template <class Own>
   });
 }
 
-// From the frame of each row; see sliding_rows.h.
+// Looks from the frame of another row, in which the own one flies past. Returns how much wider the
+// box has become along x. [unit of length]
 template <class Own>
-[[gnu::noinline]] kernels::Scan CellScan::look_into_rows(double ahead) {
+inline float see_from_row(const SlidingRows::Beside& beside, const MotionFrame& frame, double ahead,
+                          Look& look) {
+  kernels::Seeker& seeker = look.seeker;
+  const double side = look.cells->grid.sides()[0];
+  // Counted from the cell of that row that it is in.
+  const double x = Own::centre(seeker)[0] / frame.per_length - beside.place;
+  const std::int32_t cells = look.cells->grid.cell_of({x, 0, 0})[0];
+  const double by = -(beside.place + cells * side) * frame.per_length;
+  look.origin[0] += cells;
+  look.boxes = beside.boxes;
+  seeker.motion.r[0] = static_cast<float>(seeker.motion.r[0] + by);
+  seeker.r[0] = static_cast<float>(seeker.r[0] + by);
+  const auto velocity = static_cast<float>(beside.velocity * frame.per_length / frame.per_time);
+  seeker.motion.v[0] -= velocity;
+  return Own::fly_past(frame, ahead, velocity, look);
+}
+
+// Into the rows of all classes that are within reach; see sliding_rows.h.
+template <class Own>
+[[gnu::noinline]] kernels::Scan CellScan::look_into_rows(Needle i, double ahead, Time now) {
+  const ClassCells& own = volumes_.class_of(i);
+  const MotionFrame& frame = volumes_.frame;
+  const SlidingRows::Present rows(*own.rows, now);
+  views_.clear();
   looks_.resize(1);
-  const ClassCells& own = *looks_.front().cells;
-  const double unit = 1 / volumes_.frame.per_length, side = own.grid.sides()[0];
-  Look first = looks_.front();
-  set_reach<Own, Own>(own, 0, first);
-  Own::set_box(volumes_.frame, ahead, first);
-  // The rows within its reach, its own one first.
-  const auto [low, high] = views_.layers_within(first, 1, volumes_.frame.per_length);
-  const std::int32_t row = first.origin[1];
-  looks_.clear();
-  looks_.push_back(first);
-  looks_.front().row = row;
-  for (std::int32_t other = low; other <= high; ++other) {
-    if (other == row) continue;
-    Look& look = looks_.emplace_back(first);
-    look.row = other;
-    const SlidingRows::Beside beside = volumes_.rows->beside(row, other);
-    kernels::Seeker& seeker = look.seeker;
-    // Counted from the cell of the other row that it is in.
-    const double x = static_cast<double>(seeker.motion.r[0]) * unit - beside.place;
-    const auto cells = static_cast<std::int32_t>(std::floor(x / side));
-    look.origin[0] += cells;
-    seeker.motion.r[0] = static_cast<float>((x - cells * side) * volumes_.frame.per_length);
-    seeker.motion.v[0] -=
-        static_cast<float>(beside.velocity * volumes_.frame.per_length / volumes_.frame.per_time);
-    seeker.margin = 2 * own.margin;
-    set_reach<Own, Own>(own, 0, look);
-    Own::set_box(volumes_.frame, ahead, look);
-  }
+  Look first;
+  set_first<Own>(own, i, ahead, first);
+  first.boxes = 0;
+  first.seeker.margin += own.margin;  // as a row rounds its place once more
   std::size_t room = 0;
-  for (Look& look : looks_) {
-    views_.add_in_row<Own>(look, volumes_.frame.per_length);
-    room += look.views * own.cells.longest_chain() * kernels::block_size;
+  const auto look_into = [&]<class There>(There, const ClassCells& there, Look& base) {
+    const bool is_own = &there == &own;
+    set_reach<Own, There>(
+        own, is_own ? 0 : bend_between(Own{}, There{}, volumes_, own, base.seeker), base);
+    Own::set_straight_box(frame, ahead, base);
+    for (const CellGrid::AxisCell& row : views_.rows_near(base, frame.per_length)) {
+      const bool is_first = is_own && row.cell == first.origin[1];
+      Look& look = is_first ? looks_.front() : looks_.emplace_back();
+      look = base;
+      const float wider =
+          is_first ? 0
+                   : see_from_row<Own>(rows.beside(first.origin[1], *there.rows, row.cell), frame,
+                                       ahead, look);
+      views_.add_in_row<There>(look, row, wider, frame.per_length);
+      room += look.views * there.cells.longest_chain() * kernels::block_size;
+    }
+  };
+  look_into(Own{}, own, first);
+  for (const auto& each : volumes_.classes) {
+    if (each.get() == &own) continue;
+    Look base = first;
+    base.cells = each.get();
+    base.touching = volumes_.distances.largest(i, each->widest_half);
+    see_from_class<Own>(own, frame, base);
+    base.seeker.margin += own.margin;
+    with_volume(each->kind, [&]<class There>(There there) { look_into(there, *each, base); });
   }
   found_.make_room(room);
   return scan_all([&](Look& look, const kernels::Found& found) {
-    return Own::scan(kernels_, surroundings(look), look, found);
+    return with_volume(look.cells->kind, [&]<class There>(There) {
+      return look.cells == &own
+                 ? Own::scan(kernels_, surroundings(look), look, found)
+                 : scan_between(Own{}, There{}, kernels_, surroundings(look), look, found);
+    });
   });
 }
 

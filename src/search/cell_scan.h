@@ -45,14 +45,13 @@ class CellScan {
 
  private:
   template <class Own>
-  void set_first(const ClassCells& own, Needle i, double ahead);
+  void set_first(const ClassCells& own, Needle i, double ahead, Look& first);
   template <class Own>
   kernels::Scan look_into_one_class(double ahead);
   template <class Own>
   kernels::Scan look_into_classes(Needle i, double ahead);
   template <class Own>
-  kernels::Scan look_into_rows(double ahead);
-  kernels::Scan look_into_rows(Needle i, double ahead);
+  kernels::Scan look_into_rows(Needle i, double ahead, Time now);
   friend class RowScan;
   template <class Scanned>
   kernels::Scan scan_all(const Scanned& scan);
@@ -71,7 +70,15 @@ class CellScan {
 class RowScan : public CellScan {
  public:
   using CellScan::CellScan;
-  kernels::Scan look(Needle i, double ahead) { return look_into_rows(i, ahead); }
+  /// When look() will be called.
+  void set_now(Time now) { now_ = now; }
+  kernels::Scan look(Needle i, double ahead);
+  /// The boxes to be added to the record of j, which i has found in this view, so many from that of
+  /// j between their cells.
+  Shift shift_in_rows(Needle i, Needle j, std::uint32_t view, const Shift& between_cells) const;
+
+ private:
+  Time now_;
 };
 
 /// Sets the seeker to needle i, as it flies now.

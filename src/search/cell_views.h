@@ -90,6 +90,8 @@ class SegmentInCells {
 /// are.
 class CellViews {
  public:
+  using AxisCells = SegmentInCells::AxisCells;
+
   void clear() { count_ = 0; }
   std::size_t size() const { return count_; }
   const kernels::CellView* data() const { return views_.data(); }
@@ -103,21 +105,20 @@ class CellViews {
     const Layers near = layers_near(look, per_length);
     add_around_box<There>(look, near);
   }
-  /// The same, of its row alone.
-  template <class There>
-  void add_in_row(Look& look, double per_length) {
-    Layers near = layers_near(look, per_length);
-    const auto is_below = [&](const CellGrid::AxisCell& y) { return y.cell < look.row; };
-    const auto first = std::find_if_not(near.along[1].begin(), near.along[1].end(), is_below);
-    const bool is_there = first != near.along[1].end() && first->cell == look.row;
-    near.along[1] = {first, is_there ? std::size_t{1} : std::size_t{0}};
-    add_around_box<There>(look, near);
+  /// The layers of cells along y that are within reach of the look's box, for add_in_row().
+  AxisCells rows_near(const Look& look, double per_length) {
+    const float overlap = overlap_of(look, per_length);
+    along_z_ = find_near(look, 2, overlap, per_length);
+    return find_near(look, 1, overlap, per_length);
   }
-  /// The numbers of the first and the last layer of cells along an axis that are within its reach.
-  std::pair<std::int32_t, std::int32_t> layers_within(const Look& look, int axis,
-                                                      double per_length) {
-    const Layers near = layers_near(look, per_length);
-    return {near[axis].front().cell, near[axis].back().cell};
+  /// The cells of one of these rows that are within reach of the look's box, which may be as much
+  /// wider along x; that alone may have changed since.
+  template <class There>
+  void add_in_row(Look& look, const CellGrid::AxisCell& row, float wider, double per_length) {
+    const float overlap = overlap_of(look, per_length) + wider;
+    const Layers near{{find_near(look, 0, overlap, per_length), {&row, 1}, along_z_}, overlap};
+    make_room(near);
+    add_around_box<There>(look, near);
   }
   /// The same, where there are many, within reach of the segment in the box.
   template <class There>
@@ -144,7 +145,6 @@ class CellViews {
   }
 
  private:
-  using AxisCells = SegmentInCells::AxisCells;
   // Of a box of more cells, those are found that are near the segment in it. Fewer are looked
   // through sooner.
   static constexpr std::size_t many_cells = 12;
@@ -157,22 +157,28 @@ class CellViews {
     const AxisCells& operator[](int axis) const { return along[axis]; }
     std::size_t cells() const { return along[0].size() * along[1].size() * along[2].size(); }
   };
+  static float overlap_of(const Look& look, double per_length) {
+    return static_cast<float>(look.cells->overlap * per_length);
+  }
+  AxisCells find_near(const Look& look, int axis, float overlap, double per_length) {
+    const std::size_t count =
+        look.cells->grid.find_near(axis, look.origin[axis], look.low[axis] - overlap,
+                                   look.high[axis] + overlap, look.reach, per_length, near_[axis]);
+    return {near_[axis].data(), count};
+  }
   Layers layers_near(const Look& look, double per_length) {
-    const ClassCells& there = *look.cells;
     Layers out;
-    out.overlap = static_cast<float>(there.overlap * per_length);
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::size_t count =
-          there.grid.find_near(axis, look.origin[axis], look.low[axis] - out.overlap,
-                               look.high[axis] + out.overlap, look.reach, per_length, near_[axis]);
-      out.along[axis] = {near_[axis].data(), count};
-    }
-    const std::size_t most = count_ + out.cells();
-    if (most > views_.size()) {
-      views_.resize(most);
-      cells_.resize(most);
-    }
+    out.overlap = overlap_of(look, per_length);
+    for (int axis = 0; axis < 3; ++axis)
+      out.along[axis] = find_near(look, axis, out.overlap, per_length);
+    make_room(out);
     return out;
+  }
+  void make_room(const Layers& near) {
+    const std::size_t most = count_ + near.cells();
+    if (most <= views_.size()) return;
+    views_.resize(most);
+    cells_.resize(most);
   }
 
   // Writes views, and prefetches what kernels will read of their cells.
@@ -225,6 +231,7 @@ class CellViews {
   }
 
   std::vector<CellGrid::AxisCell> near_[3];
+  AxisCells along_z_;  ///< of those within reach of all rows
   std::vector<kernels::CellView> views_;
   std::vector<Cell> cells_;
   std::size_t count_ = 0;

@@ -81,12 +81,13 @@ inline constexpr double least_crowd_for_balls = 10;
 inline constexpr double most_over_mean_in_balls = 1.6;
 
 /// The search asked for by name; by `auto`, the cheaper one. Density: needles per cube of the
-/// longest one. Cells alone may slide in rows.
+/// longest one. Spheres keep no lists of neighbours where rows of cells
+/// slide, and capsules do not pay without.
 inline std::string chosen_search(const std::string& asked, double density,
                                  const Composition& composition, bool sheared = false) {
   if (asked != "auto") return asked;
-  if (sheared) return "linked-cells";
   const bool spheres = composition.are_spheres();
+  if (spheres && sheared) return "linked-cells";
   const double least = spheres ? least_crowd_for_balls : least_crowd_for_capsules;
   const bool alike = !spheres || mean_length(composition) * most_over_mean_in_balls >= 1;
   return alike && crowding(density, composition) >= least ? "capsules" : "linked-cells";

@@ -22,6 +22,7 @@ ClassCells::ClassCells(const MotionFrame& frame, const SizeClass& sizes, const C
   const double low = -overlap - most_fallen, widest = side + overlap + most_fallen;
   format = kernels::WordFormat::holding(low * frame.per_length, widest * frame.per_length);
   margin = kernels::margin_of_lengths(widest * frame.per_length);
+  if (frame.gas.shear) rows.emplace(frame.gas, grid);
 }
 
 }  // namespace needlework

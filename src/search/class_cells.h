@@ -1,11 +1,14 @@
 // The cells of one size class, and the needles in them.
 #pragma once
 
+#include <optional>
+
 #include "src/search/cell_grid.h"
 #include "src/search/motion_frame.h"
 #include "src/search/needle_cells.h"
 #include "src/search/setup.h"
 #include "src/search/size_classes.h"
+#include "src/search/sliding_rows.h"
 
 namespace needlework {
 
@@ -24,6 +27,7 @@ struct ClassCells {
   kernels::WordFormat format;  ///< of the words in blocks
   float margin;                ///< of lengths, see kernels::Seeker [unit of length]
   NeedleCells cells;
+  std::optional<SlidingRows> rows;  ///< if cells slide in rows
 };
 
 }  // namespace needlework

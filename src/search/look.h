@@ -36,7 +36,7 @@ struct Look {
   float low[3], high[3];  ///< the box around the segment that the needle's centre or axis sweeps
   float distance;         ///< of centres from that segment, or of axes, in contact or in overlap
   float reach;            ///< how far from the segment the entries of others may be
-  std::int32_t row;       ///< where cells slide in rows, that of the look, by its number along y
+  std::int32_t boxes;     ///< where cells slide in rows: to be added to bodies in that of the look
   std::size_t first_view, views;
   std::size_t first_found, found;
 };

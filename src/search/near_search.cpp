@@ -18,11 +18,11 @@ struct NearSearch::Parts {
         counters(its_counters),
         cells(all, its_kernels),
         filter(all, its_kernels, its_counters) {
-    if (all.rows) rows.emplace(all, its_kernels);
+    if (all.gas.shear) rows.emplace(all, its_kernels);
   }
 
   template <class Source>
-  std::span<const Candidate> find(Source& source, Needle i, const JustHit& just_hit, double ahead);
+  std::span<const Candidate> find(Source& source, const SearchQuery& query);
 
   BoundingVolumes& volumes;
   const kernels::NearKernels& kernels;
@@ -42,7 +42,7 @@ NearSearch::NearSearch(const Gas& gas, Counters& counters, const SearchSetup& se
       parts_(std::make_unique<Parts>(*volumes_, kernels::near_kernels(setup.isa),
                                      setup.float_filter, counters)),
       has_balls_(BallLists::suit(*volumes_)),
-      scans_otherwise_(has_balls_ || volumes_->rows) {
+      scans_otherwise_(has_balls_ || gas.shear) {
   if (has_balls_) parts_->balls.emplace(*volumes_);
 }
 
@@ -52,7 +52,7 @@ NearSearch::NearSearch(const NearSearch& other, Counters& counters)
       parts_(std::make_unique<Parts>(*volumes_, other.parts_->kernels, other.parts_->filters,
                                      counters)),
       has_balls_(false),
-      scans_otherwise_(volumes_->rows != nullptr) {}
+      scans_otherwise_(volumes_->gas.shear.has_value()) {}
 
 NearSearch::NearSearch(NearSearch&&) noexcept = default;
 NearSearch::~NearSearch() = default;
@@ -76,17 +76,19 @@ void NearSearch::renumber(const std::vector<Needle>& ranks) {
 
 void NearSearch::prefetch_ball(Needle i) const { parts_->balls->prefetch(i); }
 
-std::span<const Candidate> NearSearch::candidates(Needle i, const JustHit& just_hit, double ahead) {
+std::span<const Candidate> NearSearch::candidates(const SearchQuery& query) {
   Parts& own = *parts_;
-  return !scans_otherwise_ ? own.find(own.cells, i, just_hit, ahead)
-         : has_balls_      ? own.find(*own.balls, i, just_hit, ahead)
-                           : own.find(*own.rows, i, just_hit, ahead);
+  if (!scans_otherwise_) return own.find(own.cells, query);
+  if (has_balls_) return own.find(*own.balls, query);
+  own.rows->set_now(query.now);
+  return own.find(*own.rows, query);
 }
 
 template <class Source>
-inline std::span<const Candidate> NearSearch::Parts::find(Source& source, Needle i,
-                                                          const JustHit& just_hit, double ahead) {
-  const auto [entries, count] = source.look(i, ahead);
+inline std::span<const Candidate> NearSearch::Parts::find(Source& source,
+                                                          const SearchQuery& query) {
+  const JustHit& just_hit = query.just_hit;
+  const auto [entries, count] = source.look(query.needle, query.ahead);
   const kernels::Found found = source.found();
   for (std::size_t k = 0; k < count; ++k) {
     needlework::prefetch(&volumes.motions[found.needle[k]]);
@@ -96,7 +98,7 @@ inline std::span<const Candidate> NearSearch::Parts::find(Source& source, Needle
     const Shift shift =
         volumes.class_of(j).grid.boxes_between(source.cell_seen(view), volumes.places[j].cell);
     if constexpr (std::is_same_v<Source, RowScan>)
-      return volumes.boxes_between_rows(i, j, source.cell_seen(view), shift);
+      return source.shift_in_rows(query.needle, j, view, shift);
     else
       return shift;
   };

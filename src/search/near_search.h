@@ -56,7 +56,7 @@ class NearSearch {
   template <class Visit>
   void find(const SearchQuery& query, const Lengths auto&, Visit&& visit) {
     double ahead = query.ahead;
-    for (const Candidate& candidate : candidates(query.needle, query.just_hit, ahead)) {
+    for (const Candidate& candidate : candidates(query)) {
       if (candidate.from > ahead) break;
       ahead = visit(candidate.needle, candidate.shift, candidate.from);
     }
@@ -92,7 +92,7 @@ class NearSearch {
   // What one thread searches with. Hidden, so that event loops need not compile it.
   struct Parts;
 
-  std::span<const Candidate> candidates(Needle i, const JustHit& just_hit, double ahead);
+  std::span<const Candidate> candidates(const SearchQuery& query);
   void prefetch_ball(Needle i) const;
 
   std::shared_ptr<BoundingVolumes> volumes_;

@@ -110,7 +110,7 @@ double crowding_of_class(const Gas& gas, const std::vector<SizeClass>& classes, 
 std::vector<SizeClass> size_classes(const Gas& gas, const SearchSetup& setup, BoundingVolume kind) {
   const double density = setup.density.value_or(reduced_density(gas));
   std::vector<SizeClass> out;
-  if (gas.composition.is_mixture() && !setup.cell_side && !setup.capsule_radius && !gas.shear)
+  if (gas.composition.is_mixture() && !setup.cell_side && !setup.capsule_radius)
     out = grouped_by_length(gas);
   const double by_mean = density_by_mean(density, gas.composition),
                crowd = crowding(density, gas.composition),
@@ -124,7 +124,7 @@ std::vector<SizeClass> size_classes(const Gas& gas, const SearchSetup& setup, Bo
         length * (cells ? auto_cell_side(by_mean, crowd) : auto_side_for_capsules(by_mean)));
     if (!cells) {
       one.in_balls = setup.keep_lists && gas.composition.are_spheres() && !gas.falls &&
-                     (crowd >= least_crowd_for_balls || setup.capsule_radius);
+                     !gas.shear && (crowd >= least_crowd_for_balls || setup.capsule_radius);
       one.capsule_radius = setup.capsule_radius.value_or(
           length * (one.in_balls ? auto_ball_radius(crowd) : auto_capsule_radius(crowd)));
     }

@@ -18,7 +18,7 @@ namespace needlework {
 
 class SlidingRows {
  public:
-  /// `gas` and `grid` must outlive it.
+  /// `gas` must outlive it, as its rows do.
   SlidingRows(const Gas& gas, const CellGrid& grid);
 
   /// All bodies will be placed now.
@@ -26,37 +26,57 @@ class SlidingRows {
   /// Brings the places of rows into the box. Returns by how many boxes each is less than it was, by
   /// which its bodies are to be wrapped more.
   std::vector<std::int32_t> carry(Time now);
-  /// Of what follows.
-  void set_now(Time now);
 
-  /// A body as its row sees it: the one into whose cells it is placed, so far ahead of where it is.
+  /// A body as its row sees it: the one into whose cells it is placed.
   struct Seen {
     kernels::Flight flight;  ///< since its record
     Shift boxes;             ///< less than that of the record, along x modulo 2^32
+    std::int32_t row;
   };
-  Seen see(const Record& record, double elapsed, double ahead) const;
-  /// The same of a body that stays in this row, and where it has been wrapped by so many boxes.
-  kernels::Flight see_from(std::int32_t row, const Shift& boxes, const Record& record,
-                           double elapsed) const;
-
   /// A row, by its number along y, which may be beyond the box, as another one sees it.
   struct Beside {
     double place, velocity;  ///< along x [L, L / time]
     /// The boxes to be added to a body that is found in it, besides those between cells.
     std::int32_t boxes;
   };
-  Beside beside(std::int32_t row, std::int32_t other) const;
+
+  /// The rows at one instant.
+  class Present {
+   public:
+    Present(const SlidingRows& rows, Time now)
+        : rows_(rows), box_(rows.gas_.box_at<double>(now)), elapsed_(rows.since_base(now)) {}
+
+    /// A body whose place in a cell is so far ahead along y of where it is. [L]
+    Seen see(const Record& record, double elapsed, double ahead) const;
+    /// The same of a body that stays in this row, and where it has been wrapped by so many boxes.
+    kernels::Flight see_from(std::int32_t row, const Shift& boxes, const Record& record,
+                             double elapsed) const;
+    /// A row of cells of another size class, or of the same, as this row sees it.
+    Beside beside(std::int32_t row, const SlidingRows& there, std::int32_t other) const;
+
+   private:
+    const SlidingRows& rows_;
+    Box box_;
+    double elapsed_;  ///< since the places of rows [time]
+  };
+
+  /// By how much a row slides past the next one. [L / time]
+  double slide() const { return velocity_of(1); }
+  /// Time since the places of rows were brought into the box.
+  double age(Time now) const { return since_base(now); }
 
  private:
+  double since_base(Time now) const { return gas_.clock.difference(now, base_); }
   double velocity_of(double row) const { return gas_.shear->velocity() * (row / rows_); }
-  double place_of(std::int32_t row) const;
+  double place_of(std::int32_t row, double elapsed) const {
+    return places_[row] + velocity_of(row + 0.5) * elapsed;
+  }
 
   const Gas& gas_;
-  const CellGrid& grid_;
+  CellGrid grid_;
   double rows_;                 ///< number of them in the box
   std::vector<double> places_;  ///< along x, of the rows of the box, at `base_` [L]
-  Time base_, now_;
-  Box box_;  ///< now
+  Time base_;
 };
 
 }  // namespace needlework

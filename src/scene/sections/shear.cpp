@@ -50,22 +50,6 @@ std::optional<Violation> contacts_slide(const Scene& scene) {
                  "flow; the t_c rule is, collisions.tc or tc_relative");
 }
 
-std::optional<Violation> search_knows_no_rows(const Scene& scene) {
-  const std::string& search = scene.engine.search;
-  if (!scene.shear || search == "auto" || search == "linked-cells" || search == "all-pairs")
-    return {};
-  return Violation{.key = "engine.search",
-                   .value = in_quotes(search),
-                   .reason = "expected auto, linked-cells or all-pairs beside [shear]"};
-}
-
-std::optional<Violation> threads_know_no_rows(const Scene& scene) {
-  if (!scene.shear || scene.engine.threads.value_or(1) <= 1) return {};
-  return Violation{.key = "engine.threads",
-                   .value = fmt::to_string(*scene.engine.threads),
-                   .reason = "expected 1 beside [shear]"};
-}
-
 // Those that follow paths, or compare places across the edges.
 std::optional<Violation> observables_know_no_rows(const Scene& scene) {
   if (!scene.shear) return {};
@@ -111,8 +95,6 @@ SceneSection shear_section() {
       .rules = {{Aspect::effects, walls_stop_the_flow},
                 {Aspect::effects, gravity_drives_the_flow},
                 {Aspect::effects, contacts_slide},
-                {Aspect::effects, search_knows_no_rows},
-                {Aspect::effects, threads_know_no_rows},
                 {Aspect::output, observables_know_no_rows},
                 {Aspect::room, offset_is_beyond_the_edge}},
   };
