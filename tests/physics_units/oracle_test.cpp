@@ -128,16 +128,6 @@ TEST(Oracle, NeedlesInOnePlaneNeverMeet) {
   EXPECT_FALSE(ask(pair).contact);
 }
 
-TEST(Oracle, SpinAboutTheOwnAxisIsNoRotation) {
-  NeedlePair pair = crossing(0.25, -0.125, 0.5, 0.75, 2);
-  const OracleAnswer still = ask(pair);
-  pair.first.angular_velocity = {50, 0, 0};
-  pair.second.angular_velocity = {0, -7, 0};
-  const OracleAnswer spinning = ask(pair);
-  EXPECT_EQ(spinning.time, still.time);
-  EXPECT_EQ(spinning.arm_first, still.arm_first);
-}
-
 TEST(Oracle, FindsTheSecondOfTwoCloseRoots) {
   for (int power = 1; power < 24; ++power) {
     const double e = std::ldexp(1, -power);
