@@ -11,7 +11,7 @@
 
 #include "needlework/error.h"
 #include "tests/engine/effect_scenes.h"
-#include "tests/support/runs.h"
+#include "tests/support/scenes.h"
 
 namespace needlework {
 namespace {
@@ -44,6 +44,11 @@ TEST(Mixture, OfOneSpeciesTwiceIsThatSpecies) {
     ASSERT_EQ(by_pair.size(), 3u);
     EXPECT_EQ(std::accumulate(by_pair.begin(), by_pair.end(), std::uint64_t{0}), b.collisions());
     EXPECT_EQ(a.collisions_by_pair(), std::vector{a.collisions()});
+    for (const char* search : {"all-pairs", "linked-lists", "linked-cells", "capsules"}) {
+      EXPECT_EQ(test::hash_of(test::searched_by(two, search), test::until_time(12)),
+                a.trajectory_hash())
+          << search;
+    }
   }
 }
 
