@@ -9,8 +9,8 @@
 
 #include "tests/kernels/precise_contact.h"
 #include "tests/support/by_build.h"
-#include "tests/support/kernel_pair.h"
-#include "tests/support/pair_families.h"
+#include "tests/support/collided_pair.h"
+#include "tests/support/family_name.h"
 #include "tests/support/random.h"
 
 namespace needlework::kernels {
@@ -53,11 +53,8 @@ struct Case {
 
 // A pair of one of the families, as it is or with its records of different ages.
 Case as_kernel_pair(const test::NeedlePair& drawn, Random& random) {
-  Case out{test::kernel_pair(drawn), drawn.horizon};
-  if (drawn.just_collided) {
-    const int side = side_after(out.pair.view());
-    out.pair.touch = {.touching = side != 0, .collided = true, .side = side, .gap = 0};
-  } else if (random.coin()) {
+  Case out{test::collided_pair(drawn), drawn.horizon};
+  if (!drawn.just_collided && random.coin()) {
     Flight& older = random.coin() ? out.pair.first : out.pair.second;
     const double age = drawn.horizon * random.uniform();
     older.r -= older.v * age;
@@ -139,17 +136,11 @@ TEST_P(FirstContact, OfSwappedAxesIsTheSame) {
   });
 }
 
-static std::string family_name(const testing::TestParamInfo<test::PairFamily>& info) {
-  std::string text(info.param.name);
-  for (char& c : text) c = c == '-' ? '_' : c;
-  return text;
-}
-
 INSTANTIATE_TEST_SUITE_P(Families, FirstContact, testing::ValuesIn(test::pair_families()),
-                         family_name);
+                         test::family_name);
 
 INSTANTIATE_TEST_SUITE_P(Families, FirstContactFromAnywhere,
-                         testing::ValuesIn(test::pair_families()), family_name);
+                         testing::ValuesIn(test::pair_families()), test::family_name);
 
 // Without rotation f is linear: the only root and the arms are rational functions of the records.
 TEST(FirstContactWithoutRotation, IsWhereTheLinesMeet) {

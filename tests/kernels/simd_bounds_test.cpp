@@ -81,7 +81,7 @@ TEST_P(SimdContactFunction, IsWithinBounds) { expect_within_bounds(GetParam(), f
 TEST_P(SimdContactFunction, OfAnyLengthsIsWithinBounds) { expect_within_bounds(GetParam(), true); }
 
 INSTANTIATE_TEST_SUITE_P(Families, SimdContactFunction, testing::ValuesIn(test::pair_families()),
-                         [](const auto& info) { return family_id(info.param); });
+                         test::family_name);
 
 class Bracket : public testing::TestWithParam<test::PairFamily> {};
 
@@ -171,7 +171,7 @@ TEST_P(Bracket, AmongOthersIsNeverTooLate) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, Bracket, testing::ValuesIn(test::pair_families()),
-                         [](const auto& info) { return family_id(info.param); });
+                         test::family_name);
 
 // Of phases that floats do not know; not even from a time that its margin does not change.
 TEST(BracketOfLargePhases, RulesNothingOut) {

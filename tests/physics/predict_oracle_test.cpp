@@ -17,8 +17,8 @@
 #include "needlework/error.h"
 #include "needlework/predict.h"
 #include "tests/support/by_build.h"
+#include "tests/support/family_name.h"
 #include "tests/support/oracle.h"
-#include "tests/support/pair_families.h"
 #include "tests/support/pairs_csv.h"
 
 namespace needlework::test {
@@ -191,13 +191,7 @@ TEST_P(PredictOracle, AgreesBackwardsInTime) {
   report.expect_clean();
 }
 
-std::string test_name(const testing::TestParamInfo<PairFamily>& info) {
-  std::string text(info.param.name);
-  std::replace(text.begin(), text.end(), '-', '_');
-  return text;
-}
-
-INSTANTIATE_TEST_SUITE_P(Families, PredictOracle, testing::ValuesIn(pair_families()), test_name);
+INSTANTIATE_TEST_SUITE_P(Families, PredictOracle, testing::ValuesIn(pair_families()), family_name);
 
 TEST(PredictOracleByHand, SpinAboutTheOwnAxisIsNoRotation) {
   NeedlePair pair;
