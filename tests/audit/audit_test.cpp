@@ -14,6 +14,7 @@
 #include "tests/support/by_build.h"
 #include "tests/support/reference_gas.h"
 #include "tests/support/runs.h"
+#include "tests/support/scenes.h"
 
 namespace needlework::test {
 namespace {
@@ -60,9 +61,7 @@ void expect_clean_runs(double collisions_per_needle) {
   std::vector<Scene> scenes;
   for (const double density : {0.05, 0.72, 11.6}) {
     scenes.push_back(gas(150, density));
-    Scene& cooling = scenes.emplace_back(gas(150, density));
-    cooling.collisions.epsilon = 0.8;
-    cooling.collisions.tc_relative = 1e-3;
+    Scene& cooling = scenes.emplace_back(test::inelastic(gas(150, density), 0.8));
     cooling.initial.t_rot = 0;
     Scene& rough = scenes.emplace_back(gas(150, density));
     rough.collisions.epsilon = 0.9;
@@ -147,9 +146,7 @@ TEST(Audit, SeesOtherNeedlesThanThoseOfTheMixture) {
 }
 
 TEST(Audit, FollowsBouncesDownToTheContactTime_long) {
-  Scene scene = gas(60, 2);
-  scene.collisions.epsilon = 0.5;
-  scene.collisions.tc_relative = 1e-4;
+  Scene scene = test::inelastic(gas(60, 2), 0.5, 1e-4);
   const EngineRun run(scene, 300);
   const auto by_rule = std::count_if(run.collisions.begin(), run.collisions.end(),
                                      [](const Collision& c) { return c.contact_time_rule; });
@@ -372,9 +369,7 @@ TEST(Audit, ReportsThatItGaveUp) {
 // --- Interruption.
 
 TEST(Audit, GoesOnWhereItWasInterrupted_long) {
-  Scene scene = gas(50, 5);
-  scene.collisions.epsilon = 0.7;
-  scene.collisions.tc_relative = 1e-3;
+  Scene scene = test::inelastic(gas(50, 5), 0.7);
   EngineRun run(scene, 100);
   run.collisions[run.collisions.size() / 3].impulse[0] += 1e-6;  // to have something to remember
   const Findings whole = run.audited();
@@ -391,9 +386,7 @@ TEST(Audit, GoesOnWhereItWasInterrupted_long) {
 }
 
 TEST(Audit, StoppedWhileItChecksTheLastFlightsIsAsBefore) {
-  Scene scene = gas(50, 5);
-  scene.collisions.epsilon = 0.7;
-  scene.collisions.tc_relative = 1e-3;
+  Scene scene = test::inelastic(gas(50, 5), 0.7);
   const EngineRun run(scene, 100);
   audit::Audit audit(run.initial, run.setup);
   for (const Collision& collision : run.collisions) audit.add(collision);

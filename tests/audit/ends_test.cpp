@@ -8,6 +8,7 @@
 #include "src/audit/audit.h"
 #include "tests/support/audit_setup.h"
 #include "tests/support/runs.h"
+#include "tests/support/scenes.h"
 
 namespace needlework::test {
 namespace {
@@ -46,9 +47,7 @@ struct Whole {
 };
 
 Scene cooling() {
-  Scene scene = scene_of(60, 4);
-  scene.collisions.epsilon = 0.7;
-  scene.collisions.tc_relative = 0.02;
+  Scene scene = test::inelastic(scene_of(60, 4), 0.7, 0.02);
   scene.initial.t_rot = 0.5;
   scene.until.collisions_per_needle = 60;
   return scene;

@@ -135,31 +135,6 @@ TEST_P(JointMotionOracle, IsThatOfAContactHeldByAForce) {
 INSTANTIATE_TEST_SUITE_P(Bodies, JointMotionOracle, testing::Values(alike_bodies, unlike_bodies),
                          [](const auto& info) { return info.index == 0 ? "Alike" : "Unlike"; });
 
-TEST(JointMotion, KeepsEnergyMomentumAndContact) {
-  RandomContacts contacts(unlike_bodies);
-  const auto energy = [](const audit::BodyState& a, const AuditedBody& body) {
-    const Extended inertia = 1 / body.inverse_inertia<Extended>();
-    return (body.mass * audit::dot(a.v, a.v) + inertia * audit::dot(a.du, a.du)) / 2;
-  };
-  for (int n = 0; n < 20; ++n) {
-    JointMotion motion = motion_of(contacts.draw(), unlike_bodies);
-    ASSERT_TRUE(motion.follow(0.3));
-    const auto total = [&](double s) {
-      return energy(motion.at(0, s), unlike_bodies[0]) + energy(motion.at(1, s), unlike_bodies[1]);
-    };
-    const auto momentum = [&](double s) {
-      return motion.at(0, s).v * Extended(unlike_bodies[0].mass) +
-             motion.at(1, s).v * Extended(unlike_bodies[1].mass);
-    };
-    EXPECT_NEAR(static_cast<double>(total(0.3) / total(0)), 1, 1e-15);
-    EXPECT_LT(audit::norm(momentum(0.3) - momentum(0)), 1e-15);
-    const audit::RelativeState state = motion.state_at(0.3);
-    EXPECT_LT(std::abs(audit::dot(state.r, audit::cross(state.u1, state.u2))), 1e-15);
-    const audit::Touch touch = motion.touch_at(0.3);
-    EXPECT_LT(std::abs(touch.normal_velocity), 1e-14 * touch.speeds);
-  }
-}
-
 TEST(JointMotion, StaysWithinItsBounds) {
   RandomContacts contacts(alike_bodies);
   for (int n = 0; n < 20; ++n) {

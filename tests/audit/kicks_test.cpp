@@ -5,6 +5,7 @@
 
 #include "needlework/error.h"
 #include "tests/support/audited.h"
+#include "tests/support/scenes.h"
 #include "tests/support/wall.h"
 
 namespace needlework::test {
@@ -14,9 +15,7 @@ using audit::Findings;
 using audit::Kind;
 
 Scene kicked(double every = 0.1) {
-  Scene scene = scene_of(80, 4);
-  scene.collisions.epsilon = 0.8;
-  scene.collisions.tc_relative = 1e-3;
+  Scene scene = test::inelastic(scene_of(80, 4), 0.8);
   scene.driving.kicks = {.every = every, .translational = 1, .rotational = 2};
   return scene;
 }

@@ -16,6 +16,7 @@
 #include "tests/support/audited.h"
 #include "tests/support/by_build.h"
 #include "tests/support/runs.h"
+#include "tests/support/scenes.h"
 
 namespace needlework::test {
 namespace {
@@ -54,9 +55,7 @@ struct RodRun {
 TEST(AuditOfRods, FindsNothingWrongWithTheEngine) {
   std::vector<Scene> scenes = {rods_of(150, 5, 0.3), rods_of(60, 5, 0.02), rods_of(100, 0, 0.3),
                                rods_and_spheres(30, 9), rods_of(60, 100, 4e-4)};
-  Scene& cooling = scenes.emplace_back(rods_of(60, 1, 0.2));
-  cooling.collisions.epsilon = 0.5;
-  cooling.collisions.tc_relative = 1e-3;
+  scenes.emplace_back(test::inelastic(rods_of(60, 1, 0.2), 0.5));
   Scene& mixture = scenes.emplace_back(rods_and_spheres(30, 9));
   mixture.collisions.tc.reset();
   mixture.collisions.tc_relative = 1e-2;

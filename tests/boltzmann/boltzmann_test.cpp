@@ -1,17 +1,19 @@
 // The direct simulation of the Boltzmann equation: exact at its start, where velocities are
-// Gaussian; and encounters of pairs as an independent count has found them.
+// Gaussian; encounters of pairs as an independent count has found them; mixtures.
 #include "needlework/boltzmann.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "src/boltzmann/sums.h"
+#include "src/observe/forecast.h"
 #include "tests/support/message_of.h"
 
 namespace needlework::boltzmann {
@@ -23,42 +25,129 @@ Result result_of(const Settings& settings, const std::vector<double>& taus, int 
   return simulate(settings, taus, threads);
 }
 
+Composition unlike_species() {
+  Composition out(
+      {{.name = "long", .count = 1, .length = 2, .mass = 5, .k = 2, .t_tr = 3, .t_rot = 0.5},
+       {.name = "short", .count = 3, .length = 0.7, .t_rot = 4},
+       {.name = "cold", .count = 2, .mass = 0.3, .k = 4, .t_tr = 0, .t_rot = 0}},
+      {});
+  out.set_restitution(0, 0, {0.5, -1});
+  out.set_restitution(0, 1, {0.9, 0.3});
+  out.set_restitution(1, 1, {0.8, -1});
+  out.set_restitution(1, 2, {0.7, -0.5});
+  return out;
+}
+
+/// Species of needles of length 1 and mass 1 that differ in their names only.
+Composition alike_species(const std::vector<std::uint64_t>& counts, const theory::Gas& gas,
+                          const theory::Temperatures& initial) {
+  std::vector<Species> species;
+  for (const std::uint64_t count : counts) {
+    Species each = one_species(gas, initial)[0];
+    each.name = std::to_string(species.size());
+    each.count = count;
+    species.push_back(each);
+  }
+  return {std::move(species), {gas.epsilon, gas.beta}};
+}
+
 // Changes over a time so short that the rates of the theory hold, and half of it: the part that is
 // of second order drops out.
-TEST(Boltzmann, BeginsAsKineticTheorySays) {
-  for (const auto& [gas, t_rot] :
-       {std::pair{theory::Gas{6, 1, -1}, 0.4}, {{2, 0.8, -1}, 1.7}, {{6, 0.9, 0.3}, 0.0}}) {
-    const theory::Temperatures initial{1, t_rot};
-    const double tau = 0.05;
-    const Result result =
-        result_of({.composition = one_species(gas, initial), .needles = 1'000'000}, {tau / 2, tau});
-    const theory::Temperatures rates = theory::cooling_rates(gas, initial);
-    const Sample &half = result.samples[0], &whole = result.samples[1];
-    const auto slope = [&](double at_0, const Measured& at_half, const Measured& at_whole) {
-      return (4 * (at_half.value - at_0) - (at_whole.value - at_0)) / tau;
-    };
-    const auto error = [&](const Measured& at_half, const Measured& at_whole) {
-      return (4 * at_half.error + at_whole.error) / tau;
-    };
-    EXPECT_NEAR(slope(1, half.t_tr, whole.t_tr), rates.t_tr, 3 * error(half.t_tr, whole.t_tr));
-    EXPECT_NEAR(slope(t_rot, half.t_rot, whole.t_rot), rates.t_rot,
-                3 * error(half.t_rot, whole.t_rot));
-    EXPECT_LT(error(half.t_rot, whole.t_rot), 0.1 * std::abs(rates.t_rot));
-    const double rate = theory::collision_rate(1, initial, gas.k) / (2.0 / 3 * std::sqrt(pi));
-    EXPECT_NEAR(slope(0, half.collisions, whole.collisions), rate,
-                3 * error(half.collisions, whole.collisions));
-    EXPECT_LT(error(half.collisions, whole.collisions), 0.03 * rate);
+void expect_rates_of_theory(const Composition& composition, double tau, std::uint64_t needles) {
+  const double time = tau / theory_time_scale(1);
+  const Result result = result_of({.composition = composition, .needles = needles}, {tau / 2, tau});
+  Composition many = composition;
+  std::vector<theory::Temperatures> initial;
+  for (std::size_t n = 0; n < many.size(); ++n) {
+    many.set_count(n, needles / composition.count() * many[n].count);
+    initial.push_back({many[n].t_tr, many[n].t_rot});
+  }
+  const auto count = static_cast<double>(many.count());
+  const theory::MixtureRates rates = theory::mixture_rates(many, count, initial);
+
+  const auto expect_rate = [&](double at_0, const Measured& half, const Measured& whole,
+                               double rate, const std::string& name) {
+    const double slope = (4 * (half.value - at_0) - (whole.value - at_0)) / time;
+    const double error = (4 * half.error + whole.error) / time;
+    EXPECT_NEAR(slope, rate, 3 * error) << name;
+    return error;
+  };
+  const Sample &half = result.samples[0], &whole = result.samples[1];
+  for (std::size_t n = 0; n < many.size(); ++n) {
+    const Means &a = half.species[n], &b = whole.species[n];
+    const theory::Temperatures& rate = rates.temperatures[n];
+    // Of one species that of translation nearly vanishes.
+    const double size = many.size() == 1 ? rate.t_rot : rate.t_tr;
+    EXPECT_LT(expect_rate(initial[n].t_tr, a.t_tr, b.t_tr, rate.t_tr, many[n].name),
+              0.1 * std::abs(size));
+    EXPECT_LT(expect_rate(initial[n].t_rot, a.t_rot, b.t_rot, rate.t_rot, many[n].name),
+              0.1 * std::abs(rate.t_rot));
+  }
+  for (std::size_t pair = 0; pair < many.pairs(); ++pair) {
+    if (rates.collisions[pair] == 0) continue;  // those that do not move meet no other
+    const double rate = rates.collisions[pair] / count;
+    EXPECT_LT(expect_rate(0, half.collisions_between[pair], whole.collisions_between[pair], rate,
+                          std::to_string(pair)),
+              0.1 * rate);
   }
 }
 
-TEST(Boltzmann, ElasticCollisionsKeepTheEnergy) {
+TEST(Boltzmann, BeginsAsKineticTheorySays) {
+  for (const auto& [gas, t_rot] :
+       {std::pair{theory::Gas{6, 1, -1}, 0.4}, {{2, 0.8, -1}, 1.7}, {{6, 0.9, 0.3}, 0.0}}) {
+    SCOPED_TRACE(gas.k * gas.epsilon);
+    expect_rates_of_theory(one_species(gas, {1, t_rot}), 0.05, 1'000'000);
+  }
+  expect_rates_of_theory(unlike_species(), 0.1, 1'500'000);
+}
+
+TEST(Boltzmann, AlikeSpeciesAreOneSpecies) {
+  const theory::Gas gas{6, 0.8, 0.2};
+  const theory::Temperatures initial{1, 0.4};
   for (const Pairs pairs : {Pairs::single, Pairs::encounters}) {
-    const Result result = result_of(
-        {.composition = one_species({6, 1, -1}, {1, 0.4}), .pairs = pairs, .needles = 1600},
-        {0, 10});
-    EXPECT_NEAR(result.samples[0].energy.value, 1.9, 1e-12);
-    EXPECT_NEAR(result.samples[1].energy.value, 1.9, 1e-11);
-    EXPECT_NEAR(result.samples[1].t_tr.value, 1.9 / 2.5, 0.05);
+    const auto after = [&](const Composition& composition, std::uint64_t seed) {
+      return simulate({.composition = composition, .pairs = pairs, .needles = 48'000, .seed = seed},
+                      std::array{2.0}, 2)
+          .samples[0];
+    };
+    const Sample one = after(one_species(gas, initial), 1);
+    const Sample two = after(alike_species({1, 3}, gas, initial), 2);
+    const auto expect_same = [](const Measured& a, const Measured& b) {
+      EXPECT_NEAR(a.value, b.value, 4 * std::hypot(a.error, b.error));
+    };
+    for (const Means& means : {static_cast<const Means&>(two), two.species[0], two.species[1]}) {
+      expect_same(means.t_tr, one.t_tr);
+      expect_same(means.t_rot, one.t_rot);
+      expect_same(means.collisions, one.collisions);
+      expect_same(means.excess_mixed, one.excess_mixed);
+    }
+    EXPECT_LT(two.species[0].t_rot.error, 0.02);
+    const double all = two.collisions.value / 2;
+    for (const auto& [pair, share] : {std::pair(0, 1 / 16.0), {1, 6 / 16.0}, {2, 9 / 16.0}}) {
+      const Measured& measured = two.collisions_between[pair];
+      EXPECT_NEAR(measured.value, share * all, 4 * measured.error) << pair;
+    }
+  }
+}
+
+TEST(Boltzmann, ElasticCollisionsKeepTheEnergyAndShareItEqually) {
+  const Composition mixture(
+      {{.name = "long", .count = 1, .length = 2, .mass = 5, .k = 2, .t_tr = 3, .t_rot = 0},
+       {.name = "short", .count = 3, .length = 0.7, .t_rot = 2}},
+      {});
+  for (const auto& [composition, energy] :
+       {std::pair(one_species({6, 1, -1}, {1, 0.4}), 1.9), {mixture, (4.5 + 3 * 3.5) / 4}}) {
+    for (const Pairs pairs : {Pairs::single, Pairs::encounters}) {
+      const Result result =
+          result_of({.composition = composition, .pairs = pairs, .needles = 8000}, {0, 25});
+      EXPECT_NEAR(result.samples[0].energy.value, energy, 1e-12);
+      EXPECT_NEAR(result.samples[1].energy.value, energy, 1e-10);
+      for (const Means& means : result.samples[1].species) {
+        EXPECT_NEAR(means.t_tr.value, energy / 2.5, 4 * means.t_tr.error);
+        EXPECT_NEAR(means.t_rot.value, energy / 2.5, 4 * means.t_rot.error);
+        EXPECT_LT(means.t_tr.error, 0.05);
+      }
+    }
   }
 }
 
@@ -70,11 +159,13 @@ double share_met_before(const Result& result) {
 // In elastic equilibrium a film may be run backwards: as many contacts are not the first of their
 // encounter as are not the last.
 TEST(Boltzmann, EncountersOfAnEquilibriumMayBeRunBackwards) {
-  for (const double k : {2.0, 6.0}) {
-    const Result result = result_of({.composition = one_species({k, 1, -1}, {1, 1}),
-                                     .pairs = Pairs::encounters,
-                                     .needles = 32000},
-                                    {1});
+  const Composition mixture(
+      {{.name = "long", .count = 1, .length = 3, .mass = 4}, {.name = "short", .count = 3, .k = 2}},
+      {});
+  for (const Composition& composition :
+       {one_species({2, 1, -1}, {1, 1}), one_species({6, 1, -1}, {1, 1}), mixture}) {
+    const Result result =
+        result_of({.composition = composition, .pairs = Pairs::encounters, .needles = 32000}, {1});
     const auto of = static_cast<double>(result.encounters);
     const double collisions = result.samples[0].collisions.value * 16000;
     const double share = share_met_before(result);
@@ -197,18 +288,19 @@ TEST(Boltzmann, NumbersOfPoolsAreThoseOfTheirSums) {
 }
 
 TEST(Boltzmann, DependsOnItsSeedAndNotOnThreads) {
-  Settings settings{.composition = one_species({6, 0.8, -1}),
-                    .pairs = Pairs::encounters,
-                    .needles = 640,
-                    .seed = 7};
-  const auto energy = [&](int threads) {
-    return result_of(settings, {0.5, 1}, threads).samples[1].energy.value;
-  };
-  const double once = energy(1);
-  EXPECT_EQ(energy(2), once);
-  EXPECT_EQ(energy(5), once);
-  settings.seed = 8;
-  EXPECT_NE(energy(1), once);
+  for (Settings settings : {Settings{.composition = one_species({6, 0.8, -1}),
+                           .pairs = Pairs::encounters,
+                           .needles = 640,
+                           .seed = 7},
+                            Settings{.composition = unlike_species(), .needles = 640, .seed = 7}}) {
+    const auto energy = [&](int threads) {
+      return result_of(settings, {0.5, 1}, threads).samples[1].species.back().energy.value;
+    };
+    const double once = energy(1);
+    for (const int threads : {2, 3, 5}) EXPECT_EQ(energy(threads), once);
+    settings.seed = 8;
+    EXPECT_NE(energy(1), once);
+  }
 }
 
 TEST(Boltzmann, RefusesWhatItCannotFollow) {
@@ -232,6 +324,22 @@ TEST(Boltzmann, RefusesWhatItCannotFollow) {
   settings = {};
   settings.composition = one_species({std::nan(""), 1, -1});
   EXPECT_EQ(message(settings), "k = nan: expected a number in [1e-12, 1e12]");
+}
+
+TEST(Boltzmann, RefusesMixturesThatItCannotFollow) {
+  const auto message = [](std::vector<Species> species, std::uint64_t needles = 32000) {
+    return test::message_of<std::invalid_argument>([&] {
+      simulate({.composition = Composition(species, {}), .needles = needles}, std::array{1.0});
+    });
+  };
+  const Species thin{.name = "thin", .count = 9};
+  EXPECT_EQ(message({thin, {.name = "odd", .count = 1, .k = 0}}),
+            "odd: k = 0: expected a number in [1e-12, 1e12]");
+  EXPECT_EQ(message({thin, {.name = "rod", .count = 1, .diameter = 0.1}}),
+            "rod: diameter = 0.1: expected 0: thin needles");
+  EXPECT_EQ(message({thin, {.name = "few", .count = 1}}, 600),
+            "needles = 600: expected more, as 60 of them are of species few, and 64 must be");
+  EXPECT_EQ(message({{.name = "none"}}), "count = 0: expected 1 or more");
 }
 
 }  // namespace

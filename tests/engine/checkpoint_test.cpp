@@ -13,6 +13,7 @@
 #include "src/calendar/names.h"
 #include "tests/engine/set_velocities.h"
 #include "tests/support/same_run.h"
+#include "tests/support/scenes.h"
 
 namespace needlework {
 namespace {
@@ -63,27 +64,7 @@ void choose_parts(Scene& scene, std::size_t n) {
   const bool parallel = scene.engine.search == "capsules" || scene.engine.search == "linked-cells";
   if (parallel && n % 2 == 1) {
     scene.engine.queue = "cell-calendar";
-    scene.engine.threads = static_cast<int>(2 + n % 3);
-    scene.engine.team = "all";
-  }
-}
-
-TEST(Checkpoint, ContinuesWithTheSameCollisions) {
-  for (const SavedScene& named : scenes()) {
-    SCOPED_TRACE(named.name);
-    test::Followed whole(named.scene);
-    whole.advance_to_collision(collisions);
-    for (const double share : {0.0, 0.3, 0.7, 1.0}) {
-      test::Followed first(named.scene);
-      first.advance_to_collision(std::floor(share * collisions));
-      const Checkpoint saved = first.simulation.checkpoint();
-      test::Followed second(named.scene, saved);
-      EXPECT_EQ(second.simulation.initial_energy(), first.simulation.initial_energy());
-      EXPECT_EQ(second.simulation.trajectory_hash(), first.simulation.trajectory_hash());
-      second.collisions = first.collisions;
-      second.advance_to_collision(collisions);
-      ASSERT_NO_FATAL_FAILURE(expect_same_end(whole.recorded(), second.recorded())) << share;
-    }
+    scene = test::on_threads(scene, static_cast<int>(2 + n % 3));
   }
 }
 
@@ -101,6 +82,7 @@ TEST(Checkpoint, ContinuesOnAnySearchCalendarThreadsAndInstructionSet) {
       choose_parts(scene, n);
       SCOPED_TRACE(scene.engine.search + ", " + scene.engine.queue + ", " + scene.engine.isa);
       test::Followed part(scene, saved);
+      EXPECT_EQ(part->initial_energy(), whole->initial_energy());
       part.collisions = seen;
       part.advance_to_collision(std::floor(collisions * static_cast<double>(n) / parts));
       saved = part.simulation.checkpoint();

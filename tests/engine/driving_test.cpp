@@ -1,151 +1,17 @@
-// Kicks and the thermostat: one trajectory whatever finds the next event, however a run is divided.
+// Kicks and the thermostat: when kicks come, and what they and redraws give.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 #include <vector>
 
-#include "kernels/isa.h"
-#include "needlework/error.h"
-#include "src/calendar/names.h"
 #include "src/effects/driving/kicks.h"
-#include "tests/support/same_run.h"
+#include "tests/engine/effect_scenes.h"
+#include "tests/support/all_near.h"
+#include "tests/support/runs.h"
 
 namespace needlework {
 namespace {
-
-struct DrivenScene {
-  std::string name;
-  Scene scene;
-};
-
-Scene inelastic(std::uint64_t count, double side) {
-  Scene scene = test::scene_of(count, side, 3);
-  scene.collisions.epsilon = 0.8;
-  scene.collisions.tc_relative = 1e-3;
-  return scene;
-}
-
-Scene mixture(double side) {
-  Scene scene = inelastic(0, side);
-  scene.species = {{.name = "short", .count = 120, .length = 0.7, .mass = 0.3, .k = 3},
-                   {.name = "long", .count = 40, .length = 1.8, .mass = 4}};
-  return scene;
-}
-
-std::vector<DrivenScene> driven_scenes() {
-  std::vector<DrivenScene> out{
-      {"kicked", inelastic(160, 5)},       {"thermostat", inelastic(160, 5)},
-      {"often kicked", inelastic(160, 5)}, {"both, mixture", mixture(6)},
-      {"from rest", inelastic(160, 5)},    {"kicked and shaken, falling", inelastic(160, 5)}};
-  out[0].scene.driving.kicks = {.every = 0.11, .translational = 1, .rotational = 2};
-  out[1].scene.driving.andersen = {.rate = 0.9, .temperature = 2};
-  out[2].scene.driving.kicks = {.every = 1e-3, .translational = 1, .rotational = 2};
-  out[3].scene.driving.kicks = {.every = 0.07, .translational = 0.5, .rotational = 1};
-  out[3].scene.driving.andersen = {.rate = 0.3, .temperature = 1};
-  out[4].scene.driving.kicks = {.every = 0.2, .translational = 8, .rotational = 0};
-  out[4].scene.initial.t_tr = out[4].scene.initial.t_rot = 0;
-  Scene& shaken = out[5].scene;
-  shaken.driving.kicks = {.every = 0.05, .translational = 1, .rotational = 2};
-  shaken.forces.gravity = {0, 0, -2};
-  Scene::Wall& floor = shaken.walls.emplace_back();
-  floor.axis = "z";
-  floor.side = "low";
-  floor.epsilon = 0.9;
-  floor.motion = {.amplitude = 0.1, .frequency = 2, .phase = 0};
-  return out;
-}
-
-constexpr double end = 0.6;
-
-test::Recorded run(const Scene& scene, const std::vector<double>& stops = {}) {
-  test::Followed followed(scene);
-  for (const double stop : stops) followed->advance(test::until_time(stop));
-  followed->advance(test::until_time(end));
-  return followed.recorded();
-}
-
-// Of each search, one calendar and instruction set after the other, or all calendars.
-void expect_one_trajectory(bool all_calendars) {
-  std::size_t n = 0;
-  const auto calendars = calendar_names();
-  const auto isas = kernels::available();
-  for (const DrivenScene& named : driven_scenes()) {
-    Scene scene = named.scene;
-    scene.engine.search = "all-pairs";
-    scene.engine.queue = "lazy-heap";
-    const test::Recorded truth = run(scene);
-    EXPECT_GT(truth.collisions.size(), 40u) << named.name;
-    Scene undriven = scene;
-    undriven.driving = {};
-    EXPECT_NE(run(undriven).hash, truth.hash) << named.name;
-    for (const char* search : {"linked-lists", "linked-cells", "capsules", "auto"}) {
-      for (std::size_t each = 0; each < (all_calendars ? calendars.size() : 1); ++each, ++n) {
-        scene.engine.search = search;
-        scene.engine.queue = calendars[n % calendars.size()];
-        scene.engine.isa = kernels::name_of(isas[n % isas.size()]);
-        scene.engine.storage = n % 2 == 0 ? "sorted" : "by-id";
-        SCOPED_TRACE(named.name + ", " + search + ", " + scene.engine.queue + ", " +
-                     scene.engine.isa);
-        ASSERT_NO_FATAL_FAILURE(test::expect_same(truth, run(scene)));
-      }
-    }
-  }
-}
-
-TEST(Driving, HasOneTrajectory) { expect_one_trajectory(false); }
-
-TEST(Driving, HasOneTrajectoryOnEveryCalendar_long) { expect_one_trajectory(true); }
-
-TEST(Driving, HasOneTrajectoryOnThreads) {
-  for (const DrivenScene& named : driven_scenes()) {
-    Scene scene = named.scene;
-    const test::Recorded truth = run(scene);
-    for (const int threads : {2, 3}) {
-      for (const char* search : {"linked-cells", "capsules"}) {
-        scene.engine.search = search;
-        scene.engine.threads = threads;
-        scene.engine.team = "all";
-        SCOPED_TRACE(named.name + ", " + search + ", threads " + std::to_string(threads));
-        ASSERT_NO_FATAL_FAILURE(test::expect_same(truth, run(scene)));
-      }
-    }
-  }
-}
-
-// Also where it is stopped at the instant of a kick, and between two.
-TEST(Driving, DoesNotDependOnStops) {
-  for (const DrivenScene& named : driven_scenes()) {
-    SCOPED_TRACE(named.name);
-    const test::Recorded truth = run(named.scene);
-    ASSERT_NO_FATAL_FAILURE(
-        test::expect_same(truth, run(named.scene, {0.0, 0.07, 0.11, 0.11, 0.2, 0.33, 0.5})));
-    // Later times are sums of others in the test, as a clock may have them.
-    ASSERT_NO_FATAL_FAILURE(test::expect_same(truth, run(named.scene, {0.05, 0.22, 0.4, end})));
-  }
-}
-
-TEST(Driving, GoesOnFromACheckpoint) {
-  for (const DrivenScene& named : driven_scenes()) {
-    SCOPED_TRACE(named.name);
-    const test::Recorded truth = run(named.scene);
-    for (const double stop : {0.0, 0.1, 0.11, 0.25}) {
-      test::Followed first(named.scene);
-      first->advance(test::until_time(stop));
-      test::Followed second(named.scene, first->checkpoint());
-      second.collisions = first.collisions;
-      second->advance(test::until_time(end));
-      ASSERT_NO_FATAL_FAILURE(test::expect_same(truth, second.recorded())) << stop;
-      Scene other = named.scene;
-      if (other.driving.kicks) other.driving.kicks->rotational += 1;
-      if (other.driving.andersen) other.driving.andersen->rate += 1;
-      EXPECT_THROW(Simulation(other, first->checkpoint()), InputError);
-      other = named.scene;
-      other.needles.seed += 1;
-      EXPECT_THROW(Simulation(other, first->checkpoint()), InputError);
-    }
-  }
-}
 
 // A kick is at the end of its instant: a run that ends there has had it, with all its energy.
 TEST(Kicks, ComeAtTheMultiplesOfTheirInterval) {
@@ -165,7 +31,9 @@ TEST(Kicks, ComeAtTheMultiplesOfTheirInterval) {
 }
 
 TEST(Kicks, GiveNoMomentum) {
-  for (Scene scene : {inelastic(50, 6), mixture(6)}) {
+  for (const char* name : {"kicked", "driven_mixture"}) {
+    Scene scene = test::effect_scene(name);
+    scene.driving = {};
     State state = draw_initial_state(scene);
     for (auto& v : state.velocity) v[1] += 0.5;  // so that there is some from the start
     scene.driving.kicks = {.every = 0.01, .translational = 3, .rotational = 3};
@@ -174,7 +42,7 @@ TEST(Kicks, GiveNoMomentum) {
     EXPECT_GT(before[1], 10);
     simulation.advance(test::until_time(1));
     const auto after = simulation.totals().momentum;
-    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(after[axis], before[axis], 1e-10);
+    EXPECT_TRUE(test::all_near(after, before, 1e-10));
   }
 }
 
@@ -222,8 +90,7 @@ TEST(Kicks, TurnASingleNeedle) {
   const State before = simulation.copy();
   EXPECT_EQ(simulation.advance(test::until_time(1)), Stop::time);
   const State after = simulation.copy();
-  for (int axis = 0; axis < 3; ++axis)
-    EXPECT_NEAR(after.velocity[0][axis], before.velocity[0][axis], 1e-14);
+  EXPECT_TRUE(test::all_near(after.velocity, before.velocity, 1e-14));
   EXPECT_NE(after.angular_velocity, before.angular_velocity);
 }
 

@@ -12,6 +12,7 @@
 #include "src/calendar/names.h"
 #include "tests/support/runs.h"
 #include "tests/support/saved_gas.h"
+#include "tests/support/scenes.h"
 
 namespace needlework {
 namespace {
@@ -200,9 +201,7 @@ TEST(LongRuns, EndWithAnErrorWhenANeedleHasCrossedTooManyBoxes) {
 
 // A gas that cools for many windows loses more quanta than 64 bits hold.
 TEST(LongRuns, FollowTheEnergyOverManyDecades) {
-  Scene scene = test::scene_of(60, 4, 3);
-  scene.collisions.epsilon = 0.5;
-  scene.collisions.tc_relative = 1e-2;
+  Scene scene = test::inelastic(test::scene_of(60, 4, 3), 0.5, 1e-2);
   Simulation simulation(scene);
   Scene::Until until;
   until.energy_ratio = 1e-30;

@@ -9,43 +9,57 @@
 #include <vector>
 
 #include "tests/support/runs.h"
+#include "tests/support/scenes.h"
 
 namespace needlework {
 namespace {
 
-/// Short needles of length 1, and long ones.
-struct TwoLengths {
-  const char* name;
-  std::uint64_t short_ones, long_ones;
-  double length;   ///< of the long ones
-  double density;  ///< needles per cube of the mean length
-  double collisions;
+struct Case {
+  std::string name;
+  Scene scene;
+  double collisions;     ///< per needle
+  bool is_rare = false;  ///< collisions, which are left to one thread
 };
 
-void PrintTo(const TwoLengths& c, std::ostream* out) { *out << c.name; }
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
-Scene scene_of(const TwoLengths& c) {
-  const double count = static_cast<double>(c.short_ones + c.long_ones);
-  const double mean =
-      (static_cast<double>(c.short_ones) + static_cast<double>(c.long_ones) * c.length) / count;
-  const double box = std::cbrt(count / c.density) * mean;
-  Scene scene = test::scene_of(0, box, 11);
+/// Short needles of length 1, and long ones; so many to the cube of the mean length.
+Case lengths(const char* name, double short_ones, double long_ones, double length, double density,
+             double collisions) {
+  const double count = short_ones + long_ones, mean = (short_ones + long_ones * length) / count;
+  const double box = std::cbrt(count / density) * mean;
+  Scene scene = test::inelastic(test::scene_of(0, box, 11), 0.95);
   scene.needles.box = {box, 1.02 * box, box / 1.02};
-  scene.species = {{.name = "short", .count = c.short_ones, .length = 1, .mass = 1, .k = 6},
-                   {.name = "long", .count = c.long_ones, .length = c.length, .mass = 3, .k = 5}};
-  scene.collisions.epsilon = 0.95;
-  scene.collisions.tc_relative = 1e-3;
-  return scene;
+  scene.species = {
+      {.name = "short", .count = std::uint64_t(short_ones), .length = 1},
+      {.name = "long", .count = std::uint64_t(long_ones), .length = length, .mass = 3, .k = 5}};
+  return {name, scene, collisions, density < 1};
 }
 
-class MixtureSearches : public testing::TestWithParam<TwoLengths> {};
+Species body(const char* name, std::uint64_t count, double length, double diameter, double mass) {
+  return {.name = name,
+          .count = count,
+          .length = length,
+          .mass = mass,
+          .k = diameter > 0 && length > 0 ? homogeneous_k(length, diameter) : 6,
+          .diameter = diameter};
+}
+
+/// Bodies of very different widths: how near two of them may come is looked up for each two.
+Case widths(const char* name, double box, const Species& small, const Species& big) {
+  Scene scene = test::scene_of(0, box);
+  scene.species = {small, big};
+  return {name, scene, 3, true};
+}
+
+class MixtureSearches : public testing::TestWithParam<Case> {};
 
 TEST_P(MixtureSearches, GiveOneTrajectory) {
-  const TwoLengths& c = GetParam();
-  Scene scene = scene_of(c);
+  const Case& c = GetParam();
+  Scene scene = c.scene;
   const auto until = test::until_collisions(c.collisions);
   // All pairs of many needles take too long.
-  const bool few = c.short_ones + c.long_ones < 2000;
+  const bool few = scene.species[0].count + scene.species[1].count < 2000;
   scene.engine.search = few ? "all-pairs" : "linked-lists";
   Simulation first(scene);
   first.advance(until);
@@ -62,88 +76,36 @@ TEST_P(MixtureSearches, GiveOneTrajectory) {
     scene.engine.search = search;
     if (search != truth) expect_the_same();
   }
-  scene.engine.team = "all";
   for (const auto& [search, threads] : {std::pair("linked-cells", 2), {"capsules", 3}}) {
-    scene.engine.search = search;
-    scene.engine.threads = threads;
+    scene = test::on_threads(test::searched_by(scene, search), threads);
     const std::uint64_t phases = expect_the_same();
-    // Rare collisions are left to one thread.
-    if (c.density >= 1) {
+    if (!c.is_rare) {
       EXPECT_GT(phases, 0u);
     }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, MixtureSearches,
-                         testing::Values(TwoLengths{"equal_lengths", 300, 300, 1, 1, 4},
-                                         TwoLengths{"in_one_class", 300, 300, 1.4, 1, 4},
-                                         TwoLengths{"half_and_half", 400, 400, 20, 1, 4},
-                                         TwoLengths{"one_to_four_dilute", 640, 160, 4, 0.1, 1},
-                                         TwoLengths{"one_to_four", 640, 160, 4, 1, 4},
-                                         TwoLengths{"one_to_four_dense_long", 400, 400, 4, 10, 4},
-                                         TwoLengths{"one_to_twenty_dilute", 640, 160, 20, 0.1, 2},
-                                         TwoLengths{"one_to_twenty_long", 640, 160, 20, 1, 4},
-                                         TwoLengths{"one_to_twenty_dense_long", 400, 400, 20, 10,
-                                                    4},
-                                         TwoLengths{"few_long_ones_dilute", 700, 30, 20, 0.05, 1},
-                                         TwoLengths{"few_long_ones", 3000, 150, 20, 0.225, 0.1},
-                                         TwoLengths{"few_short_ones", 10, 700, 20, 3, 4}),
-                         [](const auto& info) { return std::string(info.param.name); });
-
-// Bodies of very different widths: how near two of them may come is looked up for each two.
-struct Widths {
-  const char* name;
-  double box;
-  Species small, big;
-};
-
-void PrintTo(const Widths& c, std::ostream* out) { *out << c.name; }
-
-Species body(const char* name, std::uint64_t count, double length, double diameter, double mass) {
-  return {.name = name,
-          .count = count,
-          .length = length,
-          .mass = mass,
-          .k = diameter > 0 && length > 0 ? homogeneous_k(length, diameter) : 6,
-          .diameter = diameter};
-}
-
-Scene scene_of(const Widths& c) {
-  Scene scene;
-  scene.needles.box = {c.box, c.box, c.box};
-  scene.species = {c.small, c.big};
-  return scene;
-}
-
-class MixtureOfWidths : public testing::TestWithParam<Widths> {};
-
-TEST_P(MixtureOfWidths, HasOneTrajectoryBySearch) {
-  Scene scene = scene_of(GetParam());
-  const auto hash_by = [&](const char* search) {
-    scene.engine.search = search;
-    Simulation simulation(scene);
-    simulation.advance(test::until_collisions(3));
-    return simulation.trajectory_hash();
-  };
-  const std::string truth = hash_by("all-pairs");
-  for (const char* search : {"linked-cells", "capsules", "auto"}) {
-    EXPECT_EQ(hash_by(search), truth) << search;
-  }
-  scene.engine.threads = 2;
-  scene.engine.team = "all";
-  EXPECT_EQ(hash_by("auto"), truth);
-}
-
 INSTANTIATE_TEST_SUITE_P(
-    Scenes, MixtureOfWidths,
+    Scenes, MixtureSearches,
     testing::Values(
-        Widths{"one_big_sphere", 21, body("small", 400, 0, 0.5, 1), body("big", 1, 0, 10, 100)},
-        Widths{"few_big_spheres", 8, body("small", 500, 0, 0.4, 1), body("big", 8, 0, 2, 30)},
-        Widths{"dense_spheres", 5, body("small", 400, 0, 0.5, 1), body("big", 16, 0, 1.5, 20)},
-        Widths{"spheres_alike", 4, body("small", 100, 0, 0.5, 1), body("big", 60, 0, 0.8, 2)},
-        Widths{"rods_and_spheres", 9, body("small", 200, 2, 0.1, 1), body("big", 20, 0, 2, 5)},
-        Widths{"rods", 13, body("small", 300, 1, 0.1, 1), body("big", 20, 5, 1, 10)}),
-    [](const auto& info) { return std::string(info.param.name); });
+        lengths("equal_lengths", 300, 300, 1, 1, 4), lengths("in_one_class", 300, 300, 1.4, 1, 4),
+        lengths("half_and_half", 400, 400, 20, 1, 4),
+        lengths("one_to_four_dilute", 640, 160, 4, 0.1, 1),
+        lengths("one_to_four", 640, 160, 4, 1, 4),
+        lengths("one_to_four_dense_long", 400, 400, 4, 10, 4),
+        lengths("one_to_twenty_dilute", 640, 160, 20, 0.1, 2),
+        lengths("one_to_twenty_long", 640, 160, 20, 1, 4),
+        lengths("one_to_twenty_dense_long", 400, 400, 20, 10, 4),
+        lengths("few_long_ones_dilute", 700, 30, 20, 0.05, 1),
+        lengths("few_long_ones", 3000, 150, 20, 0.225, 0.1),
+        lengths("few_short_ones", 10, 700, 20, 3, 4),
+        widths("one_big_sphere", 21, body("small", 400, 0, 0.5, 1), body("big", 1, 0, 10, 100)),
+        widths("few_big_spheres", 8, body("small", 500, 0, 0.4, 1), body("big", 8, 0, 2, 30)),
+        widths("dense_spheres", 5, body("small", 400, 0, 0.5, 1), body("big", 16, 0, 1.5, 20)),
+        widths("spheres_alike", 4, body("small", 100, 0, 0.5, 1), body("big", 60, 0, 0.8, 2)),
+        widths("rods_and_spheres", 9, body("small", 200, 2, 0.1, 1), body("big", 20, 0, 2, 5)),
+        widths("rods", 13, body("small", 300, 1, 0.1, 1), body("big", 20, 5, 1, 10))),
+    [](const auto& info) { return info.param.name; });
 
 // What a collision costs, and how many events there are, without clocks.
 struct Work {
@@ -167,9 +129,9 @@ Work work_of(const Scene& scene) {
 
 TEST(MixtureSearches, OneBigBodyCostsLittle) {
   const Species small = body("small", 2000, 0, 0.5, 1);
-  const Work alone = work_of(scene_of({"", 21, small, body("none", 0, 0, 10, 100)}));
+  const Work alone = work_of(widths("", 21, small, body("none", 0, 0, 10, 100)).scene);
   for (const double diameter : {2.5, 5.0, 10.0}) {
-    const Work with_one = work_of(scene_of({"", 21, small, body("big", 1, 0, diameter, 100)}));
+    const Work with_one = work_of(widths("", 21, small, body("big", 1, 0, diameter, 100)).scene);
     EXPECT_LT(with_one.candidates, 2 * alone.candidates) << diameter;
     EXPECT_LT(with_one.evaluated, 3 * alone.evaluated) << diameter;
     EXPECT_LT(with_one.searches, 1.5 * alone.searches) << diameter;

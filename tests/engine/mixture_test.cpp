@@ -9,25 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "kernels/isa.h"
 #include "needlework/error.h"
-#include "tests/support/runs.h"
+#include "tests/engine/effect_scenes.h"
+#include "tests/support/scenes.h"
 
 namespace needlework {
 namespace {
 
-// Rough inelastic needles of three species, whose lengths differ by a factor of five.
-Scene mixture() {
-  Scene scene = test::scene_of(0, 7, 21);
-  scene.species = {{.name = "short", .count = 150, .length = 0.6, .mass = 0.5, .k = 4},
-                   {.name = "long", .count = 12, .length = 3, .mass = 7, .k = 6, .t_tr = 0.3},
-                   {.name = "middle", .count = 60, .length = 1, .mass = 1, .k = 2, .t_rot = 2}};
-  scene.collisions.epsilon = 0.9;
-  scene.collisions.tc_relative = 1e-3;
-  scene.pairs = {{.between = {"short", "long"}, .epsilon = 0.6, .beta = 0.2},
-                 {.between = {"middle", "middle"}, .epsilon = 1, .beta = {}}};
-  return scene;
-}
+Scene mixture() { return test::effect_scene("mixture"); }
 
 // One species, told as two, has the same trajectory to the last bit, though another loop follows
 // it.
@@ -55,50 +44,13 @@ TEST(Mixture, OfOneSpeciesTwiceIsThatSpecies) {
     ASSERT_EQ(by_pair.size(), 3u);
     EXPECT_EQ(std::accumulate(by_pair.begin(), by_pair.end(), std::uint64_t{0}), b.collisions());
     EXPECT_EQ(a.collisions_by_pair(), std::vector{a.collisions()});
-  }
-}
-
-TEST(Mixture, HasOneTrajectory) {
-  Scene scene = mixture();
-  const auto until = test::until_collisions(20);
-  Simulation first(scene);
-  first.advance(until);
-  const std::string hash = first.trajectory_hash();
-  EXPECT_GT(first.totals().tc_collisions, 0u);
-  for (const char* search : {"all-pairs", "linked-lists", "linked-cells", "capsules"}) {
-    for (const kernels::Isa isa : kernels::available()) {
-      scene.engine.search = search;
-      scene.engine.isa = kernels::name_of(isa);
-      Simulation simulation(scene);
-      simulation.advance(until);
-      EXPECT_EQ(simulation.trajectory_hash(), hash) << search << ", " << scene.engine.isa;
-      EXPECT_EQ(simulation.collisions_by_pair(), first.collisions_by_pair());
+    for (const char* search : {"all-pairs", "linked-lists", "linked-cells", "capsules"}) {
+      EXPECT_EQ(test::hash_of(test::searched_by(two, search), test::until_time(12)),
+                a.trajectory_hash())
+          << search;
     }
   }
 }
-
-void expect_one_trajectory_on(int threads) {
-  Scene scene = mixture();
-  for (Species& each : scene.species) each.count *= 8;
-  for (double& edge : scene.needles.box) edge *= 2;
-  const auto until = test::until_collisions(4);
-  Simulation first(scene);
-  first.advance(until);
-  scene.engine.team = "all";
-  for (const char* search : {"linked-cells", "capsules"}) {
-    scene.engine.search = search;
-    scene.engine.threads = threads;
-    Simulation simulation(scene);
-    simulation.advance(until);
-    EXPECT_EQ(simulation.trajectory_hash(), first.trajectory_hash()) << search;
-    EXPECT_EQ(simulation.collisions_by_pair(), first.collisions_by_pair());
-    EXPECT_GT(simulation.counters().phases, 0u);
-  }
-}
-
-TEST(Mixture, HasOneTrajectoryOnThreads) { expect_one_trajectory_on(2); }
-
-TEST(Mixture, HasOneTrajectoryOnThreeThreads_long) { expect_one_trajectory_on(3); }
 
 // Masses, lengths and restitution of each collision, as its report has them, are those of its
 // needles.
@@ -164,23 +116,6 @@ TEST(Mixture, IsDrawnWithTheEnergiesOfItsSpecies) {
   EXPECT_NEAR(totals.t_tr, t_tr / count, 1e-12);
   EXPECT_NEAR(totals.t_rot, t_rot / count, 1e-12);
   for (const double p : totals.momentum) EXPECT_NEAR(p, 0, 1e-9);
-}
-
-TEST(Mixture, ContinuesFromACheckpoint) {
-  const Scene scene = mixture();
-  Simulation whole(scene), begun(scene);
-  whole.advance(test::until_collisions(12));
-  begun.advance(test::until_collisions(5));
-  Simulation continued(scene, begun.checkpoint());
-  continued.advance(test::until_collisions(12));
-  EXPECT_EQ(continued.trajectory_hash(), whole.trajectory_hash());
-  EXPECT_EQ(continued.collisions_by_pair(), whole.collisions_by_pair());
-  Scene other = scene;
-  other.pairs[0].epsilon = 0.7;
-  EXPECT_THROW(Simulation(other, begun.checkpoint()), InputError);
-  other = scene;
-  other.species[1].mass = 8;
-  EXPECT_THROW(Simulation(other, begun.checkpoint()), InputError);
 }
 
 // Ids need not be in the order of the species.

@@ -8,15 +8,13 @@
 #include "kernels/isa.h"
 #include "src/calendar/names.h"
 #include "tests/support/runs.h"
+#include "tests/support/scenes.h"
 
 namespace needlework {
 namespace {
 
 Scene cooling_scene() {
-  Scene scene = test::scene_of(200, 6, 7);
-  scene.collisions.epsilon = 0.8;
-  scene.collisions.beta = -0.5;
-  scene.collisions.tc_relative = 1e-3;
+  Scene scene = test::inelastic(test::scene_of(200, 6, 7), 0.8, 1e-3, -0.5);
   return scene;
 }
 
@@ -69,8 +67,7 @@ void expect_one_hash(std::string_view isa, std::initializer_list<int> numbers_of
     for (const int threads : numbers_of_threads) {
       scene.engine.search = search;
       scene.engine.isa = isa;
-      scene.engine.threads = threads;
-      scene.engine.team = "all";
+      scene = test::on_threads(scene, threads);
       ASSERT_EQ(hash_of(scene), hash) << search << ", " << isa << ", " << threads;
     }
   }

@@ -8,6 +8,7 @@
 
 #include "needlework/simulation.h"
 #include "tests/support/runs.h"
+#include "tests/support/scenes.h"
 
 namespace needlework {
 namespace {
@@ -22,8 +23,7 @@ std::vector<Scene> engines(Scene scene) {
     all.push_back(scene);
   }
   for (const int threads : {2, 3}) {
-    scene.engine.threads = threads;
-    scene.engine.team = "all";
+    scene = test::on_threads(scene, threads);
     all.push_back(scene);
   }
   return all;

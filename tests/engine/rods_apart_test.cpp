@@ -14,6 +14,7 @@
 #include "tests/support/by_build.h"
 #include "tests/support/rods.h"
 #include "tests/support/runs.h"
+#include "tests/support/scenes.h"
 
 namespace needlework {
 namespace {
@@ -27,9 +28,7 @@ TEST(RodsApart, NoOverlapIsDeeperThanRoundingExplains) {
   std::vector<Scene> scenes = {rods_of(100, 0, 0.45),   rods_of(100, 1, 0.3),
                                rods_of(130, 5, 0.25),   rods_of(50, 100, 4e-4),
                                rods_and_spheres(40, 9), rods_of(20, 0, 1e-5)};
-  Scene& cooling = scenes.emplace_back(rods_of(100, 5, 0.2));
-  cooling.collisions.epsilon = 0.5;
-  cooling.collisions.tc_relative = 1e-4;
+  scenes.emplace_back(test::inelastic(rods_of(100, 5, 0.2), 0.5, 1e-4));
   Scene& walled = scenes.emplace_back(rods_of(60, 2, 0.05));
   walled.walls = {{.axis = "z", .side = "both", .epsilon = 0.9}};
   walled.forces.gravity = {0, 0, -1};

@@ -13,25 +13,18 @@
 #include "needlework/simulation.h"
 #include "src/engine/drawn_state.h"
 #include "src/engine/initial_gas.h"
-#include "src/engine/make_loop.h"
-#include "src/engine/run.h"
 #include "src/machine/stop_request.h"
 #include "src/scene/drawing.h"
 #include "src/scene/rod_grid.h"
 #include "src/search/ball_lists.h"
 #include "src/search/bounding_volumes.h"
-#include "tests/support/parallel_loops.h"
+#include "tests/support/message_of.h"
 #include "tests/support/runs.h"
-#include "tests/support/trajectories.h"
 
 namespace needlework {
 namespace {
 
-using test::loop_of;
-using test::rods_and_spheres;
 using test::rods_of;
-using test::Trajectory;
-using test::trajectory_of;
 using test::until_time;
 
 // Rods of this state that overlap by more than `tolerance`.
@@ -45,33 +38,6 @@ int overlaps(const Scene& scene, const State& state, double tolerance) {
     grid.enter(state.position[i], state.orientation[i], species[i]);
   }
   return out;
-}
-
-TEST(Rods, HaveOneTrajectory) {
-  for (const Scene& scene :
-       {rods_of(120, 5, 0.15), rods_of(150, 0, 0.3), rods_and_spheres(60, 11)}) {
-    const double time = 1.5;
-    const Trajectory first = trajectory_of(scene, loop_of("all-pairs", "lazy-heap"), time);
-    EXPECT_GT(first.collisions, 200u) << scene.species[0].name;
-    for (const char* search : {"linked-lists", "linked-cells", "capsules"}) {
-      const Trajectory other = trajectory_of(scene, loop_of(search, "cell-calendar"), time);
-      EXPECT_EQ(other.hash, first.hash) << search << " " << scene.species[0].name;
-      EXPECT_EQ(other.collisions, first.collisions);
-    }
-  }
-}
-
-TEST(Rods, HaveOneTrajectoryOnThreads) {
-  for (const Scene& scene : {rods_of(1500, 5, 0.1), rods_and_spheres(500, 22)}) {
-    const Trajectory first = trajectory_of(scene, loop_of("linked-cells", "tournament"), 0.6);
-    EXPECT_GT(first.collisions, 500u);
-    for (const char* search : {"linked-cells", "capsules"}) {
-      const auto make = [&](needlework::Run& run) {
-        return test::parallel_loop(run, search, 3, {.sight = 0.6, .least = 1, .by_cost = false});
-      };
-      EXPECT_EQ(trajectory_of(scene, make, 0.6).hash, first.hash) << search;
-    }
-  }
 }
 
 // Spheres that stay in balls through collisions keep lists of neighbours.
@@ -172,13 +138,6 @@ TEST(Rods, NeverOverlapAndKeepTheirEnergy) {
   }
 }
 
-TEST(Rods, ContinueFromACheckpointBitForBit) {
-  const Scene scene = rods_and_spheres(60, 11);
-  Scene other = scene;
-  other.species[1].diameter *= 1.01;
-  test::expect_to_continue(scene, 0.9, 2, other);
-}
-
 TEST(Rods, SpheresDoNotTurn) {
   Simulation gas(rods_of(100, 0, 0.2));
   gas.advance(until_time(1));
@@ -193,13 +152,8 @@ TEST(Rods, ThatOverlapAtTheStartAreNamed) {
   State state = draw_initial_state(scene);
   state.position = {{3, 3, 3}, {3, 3, 3.9312}};
   state.orientation = {{1, 0, 0}, {0, 1, 0}};
-  try {
-    Simulation gas(scene, state);
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_EQ(std::string(error.what()),
-              "state: rods 0 and 1 overlap: their axes are 0.9312 apart, less than 1");
-  }
+  EXPECT_EQ(test::message_of<InputError>([&] { Simulation gas(scene, state); }),
+            "state: rods 0 and 1 overlap: their axes are 0.9312 apart, less than 1");
 }
 
 TEST(Rods, BounceOffWallsByTheirCaps) {
@@ -208,8 +162,6 @@ TEST(Rods, BounceOffWallsByTheirCaps) {
   scene.forces.gravity = {0, 0, -1};
   scene.collisions.epsilon = 0.95;
   scene.collisions.tc = 1e-4;
-  const Trajectory first = trajectory_of(scene, loop_of("all-pairs", "lazy-heap"), 3);
-  EXPECT_EQ(trajectory_of(scene, loop_of("capsules", "cell-calendar"), 3).hash, first.hash);
   Simulation gas(scene);
   gas.advance(until_time(3));
   const State state = gas.copy();
@@ -260,8 +212,6 @@ TEST(Rods, SpheresDoNotTurnWhenDriven) {
   ceiling.temperature = 2;
   scene.walls = {floor, ceiling};
   scene.driving.andersen = {.rate = 0.5, .temperature = 1.5};
-  const Trajectory first = trajectory_of(scene, loop_of("all-pairs", "lazy-heap"), 3);
-  EXPECT_EQ(trajectory_of(scene, loop_of("capsules", "cell-calendar"), 3).hash, first.hash);
   scene.driving.kicks = {.every = 0.5, .translational = 0.1, .rotational = 0.2};
   Simulation gas(scene);
   gas.advance(until_time(3));
@@ -380,12 +330,7 @@ TEST(RodPacking, CrossedBlocksMayHaveAnyEdgesAndMixtures) {
 }
 
 std::string refusal(const Scene& scene) {
-  try {
-    draw_initial_state(scene);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
+  return test::message_of<InputError>([&] { draw_initial_state(scene); });
 }
 
 TEST(RodPacking, SaysWhatItCannotPlace) {

@@ -16,6 +16,7 @@
 #include "tests/support/random.h"
 #include "tests/support/runs.h"
 #include "tests/support/same_run.h"
+#include "tests/support/scenes.h"
 
 namespace needlework::test {
 
@@ -61,9 +62,7 @@ struct Parts {
   Scene of(Scene scene) const {
     scene.engine.search = search;
     scene.engine.queue = calendar;
-    scene.engine.threads = threads;
-    scene.engine.team = "all";
-    return scene;
+    return on_threads(scene, threads);
   }
 };
 

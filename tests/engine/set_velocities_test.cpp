@@ -14,8 +14,11 @@
 
 #include "needlework/error.h"
 #include "src/audit/audit.h"
+#include "tests/support/all_near.h"
 #include "tests/support/audit_setup.h"
+#include "tests/support/message_of.h"
 #include "tests/support/same_run.h"
+#include "tests/support/scenes.h"
 
 namespace needlework {
 namespace {
@@ -73,13 +76,9 @@ TEST(SetVelocities, ToThoseThatTheNeedlesHaveGoesOn) {
   const State state = run->copy();
   EXPECT_EQ(state.velocity, before.velocity);
   EXPECT_EQ(state.image, before.image);
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      EXPECT_NEAR(state.position[i][axis], before.position[i][axis], 1e-15);
-      EXPECT_NEAR(state.orientation[i][axis], before.orientation[i][axis], 1e-15);
-      EXPECT_NEAR(state.angular_velocity[i][axis], before.angular_velocity[i][axis], 1e-14);
-    }
-  }
+  EXPECT_TRUE(test::all_near(state.position, before.position, 1e-15));
+  EXPECT_TRUE(test::all_near(state.orientation, before.orientation, 1e-15));
+  EXPECT_TRUE(test::all_near(state.angular_velocity, before.angular_velocity, 1e-14));
 
   // The same as of a run that begins here.
   Followed fresh(scene, state);
@@ -105,11 +104,7 @@ TEST(SetVelocities, ToOthersIsFollowedAsTheAuditSays) {
     for (const double factor : {1.0, 100.0, 0.01}) {
       SCOPED_TRACE((cools ? "cooling, times " : "elastic, times ") + std::to_string(factor));
       Scene scene = test::scene_of(60, 4, 4);
-      if (cools) {
-        scene.collisions.epsilon = 0.8;
-        scene.collisions.beta = 0.2;
-        scene.collisions.tc_relative = 1e-4;
-      }
+      if (cools) scene = test::inelastic(scene, 0.8, 1e-4, 0.2);
       Followed run(scene);
       const double then = 3 * run->epoch_length();
       run->advance(until_time(then));
@@ -142,12 +137,7 @@ TEST(SetVelocities, TakesOffWhatTurnsANeedleAboutItself) {
     for (int axis = 0; axis < 3; ++axis) spun[i][axis] += 7 * state.orientation[i][axis];
   }
   simulation.set_velocities(state.velocity, spun);
-  const State now = simulation.copy();
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      EXPECT_NEAR(now.angular_velocity[i][axis], state.angular_velocity[i][axis], 1e-14);
-    }
-  }
+  EXPECT_TRUE(test::all_near(simulation.copy().angular_velocity, state.angular_velocity, 1e-14));
 }
 
 TEST(SetVelocities, TakesRowsByAscendingId) {
@@ -202,20 +192,17 @@ TEST(SetVelocities, ReversedRetraceEveryCollision) {
             const double moved = end.position[i][axis] - start.position[i][axis] +
                                  4.0 * (end.image[i][axis] - start.image[i][axis]);
             ASSERT_NEAR(moved, 0, 1e-7);
-            ASSERT_NEAR(end.orientation[i][axis], start.orientation[i][axis], 1e-7);
-            ASSERT_NEAR(end.velocity[i][axis], -start.velocity[i][axis], 1e-6);
           }
         }
+        ASSERT_TRUE(test::all_near(end.orientation, start.orientation, 1e-7));
+        ASSERT_TRUE(test::all_near(end.velocity, times(-1, start.velocity), 1e-6));
       }
     }
   }
 }
 
 TEST(SetVelocities, IsTheSameWithEverySearchCalendarAndThread) {
-  Scene scene = test::scene_of(150, 5, 12);
-  scene.collisions.epsilon = 0.9;
-  scene.collisions.beta = 0.1;
-  scene.collisions.tc_relative = 1e-2;
+  const Scene scene = test::inelastic(test::scene_of(150, 5, 12), 0.9, 1e-2, 0.1);
   expect_same_with_all_parts(scene, [](const Scene& with_parts) {
     Followed run(with_parts);
     run->advance(until_collisions(2));
@@ -231,13 +218,9 @@ TEST(SetVelocities, IsTheSameWithEverySearchCalendarAndThread) {
 
 // Of so many that threads share the work.
 TEST(SetVelocities, IsTheSameOnThreadsThatShareTheWork_long) {
-  Scene scene = test::scene_of(3000, 9, 13);
-  scene.collisions.epsilon = 0.9;
-  scene.collisions.tc_relative = 1e-2;
   const auto run = [&](int threads) {
-    scene.engine.threads = threads;
-    scene.engine.team = "all";
-    Followed run(scene);
+    Followed run(
+        test::on_threads(test::inelastic(test::scene_of(3000, 9, 13), 0.9, 1e-2), threads));
     for (const double mean : {3.0, 6.0, 9.0}) {
       run->advance(until_collisions(mean / thin));
       if (mean < 5) {
@@ -305,9 +288,7 @@ TEST(SetVelocities, LeavesTheMemoryOfTheContactTime) {
 
 // A relative one is that of the new velocities from then on, not from the next window.
 TEST(SetVelocities, SetTheContactTimeInForce) {
-  Scene scene = test::scene_of(100, 4, 15);
-  scene.collisions.epsilon = 0.9;
-  scene.collisions.tc_relative = 0.2;
+  const Scene scene = test::inelastic(test::scene_of(100, 4, 15), 0.9, 0.2);
   for (const double factor : {0.125, 8.0}) {
     SCOPED_TRACE(factor);
     Followed run(scene);
@@ -338,19 +319,13 @@ TEST(SetVelocities, SetTheContactTimeInForce) {
 }
 
 TEST(SetVelocities, RefusesBadRowsAndChangesNothing) {
-  Scene scene = test::scene_of(40, 4, 16);
-  scene.collisions.epsilon = 0.9;
-  scene.collisions.tc_relative = 1e-3;
+  const Scene scene = test::inelastic(test::scene_of(40, 4, 16), 0.9);
   Simulation simulation(scene), truth(scene);
   for (Simulation* each : {&simulation, &truth}) each->advance(until_collisions(2));
   const State state = simulation.copy();
-  const auto refused = [&](const Rows& velocity, const Rows& angular_velocity) -> std::string {
-    try {
-      simulation.set_velocities(velocity, angular_velocity);
-      return "accepted";
-    } catch (const InputError& error) {
-      return error.what();
-    }
+  const auto refused = [&](const Rows& velocity, const Rows& angular_velocity) {
+    return test::message_of<InputError>(
+        [&] { simulation.set_velocities(velocity, angular_velocity); });
   };
   const auto with = [](Rows rows, std::size_t row, double value) {
     rows[row][1] = value;
@@ -400,13 +375,9 @@ TEST(SetVelocities, OfNoNeedlesOrOneAreSet) {
 
 // The ratio of an end by energy is that to the energy at the start of the run.
 TEST(SetVelocities, LeaveTheEnergyOfTheStart) {
-  Scene scene = test::scene_of(100, 5, 17);
-  scene.collisions.epsilon = 0.8;
-  scene.collisions.tc_relative = 1e-3;
   for (const int threads : {1, 2}) {
-    scene.engine.threads = threads;
-    scene.engine.team = "all";
-    Simulation simulation(scene);
+    Simulation simulation(
+        test::on_threads(test::inelastic(test::scene_of(100, 5, 17), 0.8), threads));
     const double start = simulation.totals().energy;
     simulation.advance(until_collisions(1));
     scale_velocities(simulation, 2);
@@ -422,23 +393,6 @@ TEST(SetVelocities, LeaveTheEnergyOfTheStart) {
     until.energy_ratio = 0.25;
     EXPECT_EQ(simulation.advance(until), Stop::energy);
     EXPECT_EQ(simulation.totals().collisions, collisions);
-  }
-}
-
-// The energy lost in collisions is counted from the energy of the new velocities.
-TEST(SetVelocities, KeepTheAccountOfTheEnergy) {
-  Scene scene = test::scene_of(100, 5, 18);
-  scene.collisions.epsilon = 0.8;
-  scene.collisions.beta = 0.2;
-  scene.collisions.tc_relative = 1e-3;
-  Simulation simulation(scene);
-  double energy = 0;
-  simulation.on_collision([&](const Collision& c) { energy += c.energy_change; });
-  for (int n = 1; n <= 6; ++n) {
-    scale_velocities(simulation, n % 2 ? 3 : 0.1);
-    energy = 100 * simulation.totals().energy;
-    simulation.advance(until_collisions(n));
-    EXPECT_NEAR(100 * simulation.totals().energy, energy, 1e-12 * energy);
   }
 }
 

@@ -13,8 +13,9 @@
 
 #include "needlework/error.h"
 #include "needlework/initial_state.h"
+#include "tests/support/message_of.h"
 #include "tests/support/rods.h"
-#include "tests/support/runs.h"
+#include "tests/support/scenes.h"
 
 namespace needlework {
 namespace {
@@ -23,9 +24,7 @@ using test::until_collisions;
 using test::until_time;
 
 TEST(Simulation, IsNotChangedByStoppingToLook) {
-  Scene scene = test::scene_of(200, 6);
-  scene.collisions.epsilon = 0.9;
-  scene.collisions.tc_relative = 1e-3;
+  const Scene scene = test::inelastic(test::scene_of(200, 6), 0.9);
   Simulation whole(scene), pieces(scene);
   whole.advance(until_time(5));
   for (int n = 1; n <= 1000; ++n) {
@@ -49,9 +48,7 @@ TEST(Simulation, EndsAtTheExactCollision) {
 
 TEST(Simulation, TellsTheTimesOfCollisions_long) {
   for (const int threads : {1, 2, 5}) {
-    Scene scene = test::scene_of(2000, 14);
-    scene.engine.threads = threads;
-    scene.engine.team = "all";
+    const Scene scene = test::on_threads(test::scene_of(2000, 14), threads);
     for (const bool both : {false, true}) {
       Simulation simulation(scene);
       std::vector<double> times, whole;
@@ -89,9 +86,7 @@ TEST(Simulation, DriftOfEnergyIsThatOfAnElasticGas) {
 
 // Without rounding each change of energy to the nearest quantum, it would be about 7e-14.
 TEST(Simulation, DriftOfEnergyIsThatOfRoundingInAnInelasticGas) {
-  Scene scene = test::scene_of(400, 8);
-  scene.collisions.epsilon = 0.8;
-  scene.collisions.tc_relative = 1e-3;
+  const Scene scene = test::inelastic(test::scene_of(400, 8), 0.8);
   Simulation simulation(scene);
   const double start = simulation.totals().energy;
   simulation.advance(until_collisions(300));
@@ -103,9 +98,7 @@ TEST(Simulation, DriftOfEnergyIsThatOfRoundingInAnInelasticGas) {
 }
 
 TEST(Simulation, EndsAtTheFirstCollisionBelowTheEnergy) {
-  Scene scene = test::scene_of(100, 5);
-  scene.collisions.epsilon = 0.7;
-  scene.collisions.tc_relative = 1e-3;
+  const Scene scene = test::inelastic(test::scene_of(100, 5), 0.7);
   Simulation simulation(scene);
   const double start = simulation.totals().energy;
   double before_last = 0, energy = start;
@@ -118,50 +111,6 @@ TEST(Simulation, EndsAtTheFirstCollisionBelowTheEnergy) {
   EXPECT_EQ(simulation.advance(until), Stop::energy);
   EXPECT_LE(simulation.totals().energy, 0.5 * start * (1 + 1e-12));
   EXPECT_GT(before_last, 0.5 * start);
-}
-
-TEST(Simulation, LosesTheEnergyThatTheRuleSays) {
-  for (const double beta : {-1.0, 0.2}) {
-    Scene scene = test::scene_of(150, 5);
-    scene.collisions.epsilon = 0.85;
-    scene.collisions.beta = beta;
-    scene.collisions.tc_relative = 1e-3;
-    Simulation simulation(scene);
-    double energy = simulation.totals().energy * 150;
-    std::size_t by_rule = 0;
-    simulation.on_collision([&](const Collision& c) {
-      energy += c.energy_change;
-      by_rule += c.contact_time_rule;
-      if (c.contact_time_rule) {
-        ASSERT_EQ(c.energy_change, 0);
-      } else if (beta == -1) {
-        const double s2 = c.arm_first * c.arm_first + c.arm_second * c.arm_second;
-        const double loss =
-            0.5 * (1 - 0.85 * 0.85) * c.normal_velocity * c.normal_velocity / (2 + 12 * s2);
-        ASSERT_NEAR(c.energy_change, -loss, 1e-12 * loss);
-      } else {
-        ASSERT_LT(c.energy_change, 0);
-      }
-    });
-    for (int n = 1; n <= 20; ++n) {
-      simulation.advance(until_collisions(n));
-      const double now = simulation.totals().energy * 150;
-      ASSERT_NEAR(now, energy, 1e-12 * now) << "beta " << beta << ", step " << n;
-    }
-  }
-}
-
-TEST(Simulation, KeepsElasticEnergyAndMomentum) {
-  for (const double beta : {-1.0, 1.0}) {
-    Scene scene = test::scene_of(200, 5);
-    scene.collisions.beta = beta;
-    Simulation simulation(scene);
-    const Totals start = simulation.totals();
-    simulation.advance(until_collisions(300));
-    const Totals end = simulation.totals();
-    EXPECT_NEAR(end.energy, start.energy, 1e-12 * start.energy) << "beta " << beta;
-    for (const double p : end.momentum) EXPECT_NEAR(p, 0, 1e-11);
-  }
 }
 
 TEST(Simulation, StopsWhenInterrupted) {
@@ -179,20 +128,33 @@ TEST(Simulation, StopsWhenInterrupted) {
 TEST(Simulation, RefusesStatesThatAreNotGases) {
   const Scene scene = test::scene_of(3, 3);
   const State good = draw_initial_state(scene);
-  const auto refused = [&](auto change, const std::string& word) {
+  const auto refused = [&](auto change, const std::string& words) {
     State bad = good;
     change(bad);
-    try {
-      Simulation simulation(scene, bad);
-      ADD_FAILURE() << "accepted: " << word;
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
-    }
+    const std::string message =
+        test::message_of<InputError>([&] { Simulation simulation(scene, bad); });
+    EXPECT_NE(message.find(words), std::string::npos) << message;
   };
-  refused([](State& s) { s.position[1][2] = NAN; }, "finite");
-  refused([](State& s) { s.orientation[0] = {0, 0, 0}; }, "orientation = (0, 0, 0)");
+  refused(
+      [](State& s) {
+        s.position[2] = {1, NAN, 2};
+      },
+      "state: needle 2: position = (1, nan, 2): expected finite numbers");
+  refused(
+      [](State& s) {
+        s.angular_velocity[1] = {HUGE_VAL, 0, 0};
+      },
+      "state: needle 1: angular velocity = (inf, 0, 0): expected finite numbers");
+  refused(
+      [](State& s) {
+        s.orientation[0] = {0, 0, 0};
+      },
+      "state: needle 0: orientation = (0, 0, 0): expected one that is not 0");
   refused([](State& s) { s.box[1] = 2.0; }, "2.01");
   refused([](State& s) { s.velocity.pop_back(); }, "velocity");
+  refused([](State& s) { s.velocity.clear(); }, "velocity");
+  refused([](State& s) { s.orientation.clear(); }, "orientation");
+  refused([](State& s) { s.angular_velocity.clear(); }, "angular");
   refused([](State& s) { s.id = {4, 7, 4}; }, "distinct");
   Scene unknown = scene;
   unknown.engine.search = "guess";
@@ -208,12 +170,7 @@ TEST(Simulation, RefusesASceneWhoseStateIsInAFile) {
   Scene scene = test::scene_of(3, 3);
   scene.initial.file = "absent.h5";
   const auto message = [&] {
-    try {
-      Simulation simulation(scene);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    return test::message_of<InputError>([&] { Simulation simulation(scene); });
   };
   const std::string why =
       ": expected none, as Simulation(scene) reads no files: read the state with "
@@ -285,20 +242,15 @@ TEST(Simulation, GivesOneNeedleAsItsRowOfAll) {
     const State all = simulation.copy();
     for (std::size_t row = 0; row < all.size(); ++row) {
       const FreeNeedle one = simulation.needle(all.id[row]);
-      ASSERT_EQ(one.position, all.position[row]) << "at " << time << ", needle " << all.id[row];
-      ASSERT_EQ(one.velocity, all.velocity[row]);
-      ASSERT_EQ(one.orientation, all.orientation[row]);
-      ASSERT_EQ(one.angular_velocity, all.angular_velocity[row]);
+      ASSERT_TRUE(one.position == all.position[row] && one.velocity == all.velocity[row] &&
+                  one.orientation == all.orientation[row] &&
+                  one.angular_velocity == all.angular_velocity[row])
+          << "at " << time << ", needle " << all.id[row];
     }
   }
   for (const std::uint32_t id : {0u, 6u, 8u, 7u + 3 * 120, 0xffffffffu}) {
-    try {
-      simulation.needle(id);
-      ADD_FAILURE() << "there is no needle " << id;
-    } catch (const InputError& error) {
-      EXPECT_EQ(std::string(error.what()),
-                "needle " + std::to_string(id) + ": expected the id of a needle");
-    }
+    EXPECT_EQ(test::message_of<InputError>([&] { simulation.needle(id); }),
+              "needle " + std::to_string(id) + ": expected the id of a needle");
   }
 }
 
@@ -343,46 +295,6 @@ TEST(Simulation, MovesCentresWithTheirVelocities) {
   }
 }
 
-TEST(Simulation, RefusesVelocitiesWhoseSquaresOverflow) {
-  const Scene scene = test::scene_of(20, 5);
-  State state = draw_initial_state(scene);
-  for (auto& velocity : state.velocity) velocity[0] *= 1e160;
-  EXPECT_THROW(Simulation(scene, state), InputError);
-}
-
-TEST(Simulation, RefusesStatesWithoutDirectorsOrVelocities) {
-  Scene scene;
-  scene.needles.count = 10;
-  scene.needles.box = {6, 6, 6};
-  const State whole = draw_initial_state(scene);
-  for (auto part : {&State::velocity, &State::orientation, &State::angular_velocity}) {
-    State state = whole;
-    (state.*part).clear();
-    EXPECT_THROW(Simulation(scene, state), InputError);
-  }
-}
-
-TEST(Simulation, NamesTheNumberOfAStateThatItRefuses) {
-  const Scene scene = test::scene_of(10, 6);
-  const auto refused = [&](auto part, std::array<double, 3> value) -> std::string {
-    State state = draw_initial_state(scene);
-    (state.*part)[3] = value;
-    try {
-      Simulation simulation(scene, state);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "none";
-  };
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(refused(&State::position, {1, nan, 2}),
-            "state: needle 3: position = (1, nan, 2): expected finite numbers");
-  EXPECT_EQ(refused(&State::angular_velocity, {HUGE_VAL, 0, 0}),
-            "state: needle 3: angular velocity = (inf, 0, 0): expected finite numbers");
-  EXPECT_EQ(refused(&State::orientation, {0, 0, 0}),
-            "state: needle 3: orientation = (0, 0, 0): expected one that is not 0");
-}
-
 // Nothing of it is limited in silence: 2^31 boxes are crossed at the time 2.1e9.
 TEST(Simulation, EndsBeforeImagesDoNotFitTheFile) {
   const Scene scene = test::scene_of(1, 4);
@@ -402,35 +314,28 @@ TEST(Simulation, EndsBeforeImagesDoNotFitTheFile) {
 TEST(Simulation, StaysSoundWhereAnEventCrossesTooManyBoxes) {
   constexpr std::int32_t most = 0x7fffffff - (1 << 11);
   for (const int n : {0, 1, 2, 3, 4, 5, 6, 7}) {
-    const int threads = 1 + n % 2;
-    Scene scene = test::scene_of(60, 5, 1 + n);
-    scene.engine.threads = threads;
-    scene.engine.team = "all";
+    const Scene scene = test::on_threads(test::scene_of(60, 5, 1 + n), 1 + n % 2);
     State state = draw_initial_state(scene);
     state.image.resize(state.size());
     for (std::size_t i = 1; i < state.size(); i += 2) state.image[i].fill(most);
     Simulation simulation(scene, state);
-    std::string failure;
-    try {
-      simulation.advance(test::until_collisions(1000));
-      FAIL() << "expected an error";
-    } catch (const UnfinishedEventError& error) {
-      FAIL() << error.what();
-    } catch (const InvalidStateError& error) {
-      failure = error.what();
-    }
+    const auto failure_of = [](Simulation& of) {
+      return test::message_of<InvalidStateError>([&] {
+        try {
+          of.advance(until_collisions(1000));
+        } catch (const UnfinishedEventError& error) {
+          ADD_FAILURE() << error.what();
+        }
+      });
+    };
+    const std::string failure = failure_of(simulation);
     EXPECT_TRUE(failure.ends_with("expected an earlier end of the run, or a larger box"));
     const double time = simulation.time();
     const Checkpoint saved = simulation.checkpoint();
     Simulation again(scene, saved);
     EXPECT_EQ(again.time(), time);
     for (Simulation* each : {&simulation, &again}) {
-      try {
-        each->advance(test::until_collisions(1000));
-        ADD_FAILURE() << "expected an error";
-      } catch (const InvalidStateError& error) {
-        EXPECT_EQ(error.what(), failure);
-      }
+      EXPECT_EQ(failure_of(*each), failure);
       EXPECT_EQ(each->checkpoint().bytes.size(), saved.bytes.size());
     }
     // As a run that ends there by itself.
@@ -442,13 +347,8 @@ TEST(Simulation, StaysSoundWhereAnEventCrossesTooManyBoxes) {
 }
 
 void expect_refusal(std::string_view message, const std::function<void()>& make) {
-  try {
-    make();
-    ADD_FAILURE() << message << " accepted";
-  } catch (const InputError& error) {
-    EXPECT_TRUE(std::string(error.what()).starts_with("the scene: " + std::string(message)))
-        << error.what();
-  }
+  const std::string found = test::message_of<InputError>(make);
+  EXPECT_TRUE(found.starts_with("the scene: " + std::string(message))) << found << message;
 }
 
 // What the reader of scene files refuses must not hang or miss collisions in a scene made in code.

@@ -10,15 +10,13 @@
 #include <random>
 #include <vector>
 
-#include "kernels/isa.h"
 #include "kernels/sliding_entry.h"
 #include "needlework/error.h"
-#include "src/calendar/names.h"
 #include "src/engine/initial_gas.h"
 #include "src/physics/slides.h"
 #include "src/physics/vectors.h"
 #include "tests/support/message_of.h"
-#include "tests/support/runs.h"
+#include "tests/support/scenes.h"
 
 namespace needlework {
 namespace {
@@ -178,114 +176,6 @@ TEST(Sliding, OfTwoNeedlesIsThatOfTheKernels) {
   EXPECT_GT(tips, 10);
 }
 
-TEST(Sliding, HasOneTrajectoryOnEveryInstructionSet) {
-  Scene scene = sliding_scene(100, 5, 0, 4);
-  std::string hash;
-  for (const char* search : {"linked-cells", "capsules"}) {
-    for (const kernels::Isa isa : kernels::available()) {
-      scene.engine.search = search;
-      scene.engine.isa = kernels::name_of(isa);
-      Simulation simulation(scene);
-      simulation.advance(test::until_collisions(10));
-      if (hash.empty()) hash = simulation.trajectory_hash();
-      EXPECT_EQ(simulation.trajectory_hash(), hash) << search << ", " << scene.engine.isa;
-    }
-  }
-}
-
-TEST(Sliding, HasOneTrajectory) {
-  for (const double epsilon : {0.0, 0.5}) {
-    Scene scene = sliding_scene(100, 5, epsilon, 3);
-    std::string hash;
-    for (const char* search : {"all-pairs", "linked-lists", "linked-cells", "capsules"}) {
-      for (const std::string& calendar : calendar_names()) {
-        scene.engine.search = search;
-        scene.engine.queue = calendar;
-        Simulation simulation(scene);
-        simulation.advance(test::until_collisions(10));
-        if (hash.empty()) hash = simulation.trajectory_hash();
-        ASSERT_EQ(simulation.trajectory_hash(), hash) << search << ", " << calendar;
-        EXPECT_GT(simulation.sliding_contacts()->entered, 10u);
-        EXPECT_GT(simulation.sliding_contacts()->ended_by_strike, 1u);
-      }
-    }
-  }
-}
-
-// Energy goes where the collisions say, and momentum nowhere.
-TEST(Sliding, ConservesEnergyAndMomentumOfAGas) {
-  Scene scene = sliding_scene(200, 6, 0.5, 5);
-  Simulation simulation(scene);
-  const Totals before = simulation.totals();
-  double lost = 0;
-  simulation.on_happening([&](const Happening& what) {
-    lost -= what.event.energy_change;
-    EXPECT_LE(what.event.energy_change, 0);
-  });
-  simulation.advance(test::until_collisions(30));
-  const Totals after = simulation.totals();
-  EXPECT_NEAR(200 * (before.energy - after.energy), lost, 1e-11 * lost);
-  EXPECT_LT(std::abs(simulation.energy_drift()), 1e-11);
-  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(after.momentum[axis], 0, 1e-11);
-  EXPECT_GT(simulation.sliding_contacts()->entered, 30u);
-}
-
-Scene mixture(double epsilon) {
-  Scene scene;
-  scene.needles.box = {5, 5, 5};
-  scene.needles.seed = 8;
-  scene.collisions.epsilon = epsilon;
-  scene.collisions.sliding = true;
-  scene.species = {
-      {.name = "long", .count = 40, .length = 1.5, .mass = 2.5, .k = 3, .t_tr = 1, .t_rot = 1},
-      {.name = "short", .count = 80, .length = 0.4, .mass = 0.3, .k = 6, .t_tr = 1, .t_rot = 2}};
-  scene.pairs = {{.between = {"long", "short"}, .epsilon = 0.3}};
-  return scene;
-}
-
-std::string hash_of(const Scene& scene, double collisions) {
-  Simulation simulation(scene);
-  simulation.advance(test::until_collisions(collisions));
-  return simulation.trajectory_hash();
-}
-
-TEST(Sliding, HasOneTrajectoryInMixtures) {
-  Scene scene = mixture(0.2);
-  Simulation simulation(scene);
-  const Totals before = simulation.totals();
-  double lost = 0;
-  simulation.on_happening([&](const Happening& what) { lost -= what.event.energy_change; });
-  simulation.advance(test::until_collisions(20));
-  EXPECT_NEAR(120 * (before.energy - simulation.totals().energy), lost, 1e-11 * lost);
-  EXPECT_GT(simulation.sliding_contacts()->entered, 30u);
-  for (const char* search : {"all-pairs", "linked-lists", "linked-cells", "capsules"}) {
-    scene.engine.search = search;
-    EXPECT_EQ(hash_of(scene, 20), simulation.trajectory_hash()) << search;
-  }
-}
-
-// Kicks and redraws change the velocities of needles in contact, and end it.
-TEST(Sliding, IsEndedByDriving) {
-  for (const bool kicks : {false, true}) {
-    Scene scene = sliding_scene(100, 5, 0.2, 4);
-    if (kicks) {
-      scene.driving.kicks = {.every = 0.02, .translational = 0.3, .rotational = 0.3};
-    } else {
-      scene.driving.andersen = {.rate = 3, .temperature = 1};
-    }
-    Simulation simulation(scene);
-    simulation.advance(test::until_collisions(20));
-    const SlidingContacts contacts = *simulation.sliding_contacts();
-    EXPECT_GT(contacts.entered, 50u);
-    EXPECT_GT(contacts.ended_by_strike, contacts.entered / 4);
-    EXPECT_LT(std::abs(simulation.energy_drift()), 1e-11);
-    for (const char* search : {"all-pairs", "capsules"}) {
-      scene.engine.search = search;
-      EXPECT_EQ(hash_of(scene, 20), simulation.trajectory_hash()) << search << kicks;
-    }
-  }
-}
-
 // Collisions and hits on walls of a needle in contact, and what follows at the same instant: how
 // many there are, and how much energy they have lost.
 struct Strikes {
@@ -343,7 +233,7 @@ TEST(SlidingWithElasticStrikes, IsTheSameWithoutStrikes) {
   std::uint64_t entered = 0;
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
     Scene scene = sliding_scene(2, 2.2, 0, seed);
-    const std::string usual = hash_of(scene, 10);
+    const std::string usual = test::hash_of(scene, test::until_collisions(10));
     scene.collisions.elastic_strikes = true;
     Simulation simulation(scene);
     simulation.advance(test::until_collisions(10));
@@ -351,27 +241,6 @@ TEST(SlidingWithElasticStrikes, IsTheSameWithoutStrikes) {
     entered += simulation.sliding_contacts()->entered;
   }
   EXPECT_GT(entered, 10u);
-}
-
-TEST(SlidingWithElasticStrikes, HasOneTrajectory) {
-  Scene scene = sliding_scene(200, 6, 0.2, 3);
-  const std::string usual = hash_of(scene, 10);
-  scene.collisions.elastic_strikes = true;
-  const std::string hash = hash_of(scene, 10);
-  EXPECT_NE(hash, usual);
-  scene.engine.search = "all-pairs";
-  EXPECT_EQ(hash_of(scene, 10), hash);
-  scene.engine.search = "capsules";
-  scene.engine.threads = 2;
-  scene.engine.team = "all";
-  EXPECT_EQ(hash_of(scene, 10), hash);
-}
-
-TEST(SlidingWithElasticStrikes, GoesOnFromCheckpoints) {
-  Scene scene = sliding_scene(60, 4, 0, 6), usual = scene;
-  scene.collisions.elastic_strikes = true;
-  for (double saved = 0.1; saved < 1; saved += 0.15)
-    test::expect_to_continue(scene, saved, saved + 0.5, usual);
 }
 
 // Velocities that press a pair together collide at once.
@@ -445,43 +314,6 @@ TEST(Sliding, NeedsNoMoreMemoryWhileVelocitiesAreSet) {
   };
   const double early = allocated(50);
   EXPECT_LT(allocated(200), early + 1e6);
-}
-
-// At many times, so that some are within strikes, and contacts last at most of them.
-TEST(Sliding, GoesOnFromCheckpoints) {
-  const Scene scene = sliding_scene(60, 4, 0, 6);
-  Scene other = scene;
-  other.collisions.sliding_below = 2e-3;
-  for (double saved = 0.05; saved < 1; saved += 0.05)
-    test::expect_to_continue(scene, saved, saved + 0.5, other);
-  // After any number of collisions, in the midst of what happens at one instant, too.
-  Simulation whole(scene);
-  whole.advance(test::until_collisions(12));
-  for (double collisions = 1; collisions < 12; collisions += 1. / 3) {
-    Simulation half(scene);
-    half.advance(test::until_collisions(collisions));
-    const SlidingContacts before = *half.sliding_contacts();
-    Simulation rest(scene, half.checkpoint());
-    EXPECT_EQ(rest.sliding_contacts()->entered, before.entered);
-    rest.advance(test::until_collisions(12));
-    EXPECT_EQ(rest.trajectory_hash(), whole.trajectory_hash()) << collisions;
-    EXPECT_EQ(rest.sliding_contacts()->time, whole.sliding_contacts()->time);
-  }
-}
-
-TEST(Sliding, HasOneTrajectoryOnThreads) {
-  for (const double epsilon : {0.0, 0.5}) {
-    Scene scene = sliding_scene(500, 8, epsilon, 9);
-    const std::string hash = hash_of(scene, 12);
-    scene.engine.team = "all";
-    for (const char* search : {"linked-cells", "capsules"}) {
-      for (const int threads : {2, 3}) {
-        scene.engine.search = search;
-        scene.engine.threads = threads;
-        EXPECT_EQ(hash_of(scene, 12), hash) << search << ", " << threads;
-      }
-    }
-  }
 }
 
 // Needles pressed together by third ones: no time is stopped by ever smaller bounces.

@@ -7,6 +7,7 @@
 
 #include "needlework/simulation.h"
 #include "tests/support/runs.h"
+#include "tests/support/scenes.h"
 
 namespace needlework {
 namespace {
@@ -20,10 +21,8 @@ class SpeciesOfPowersOfTwo
     : public testing::TestWithParam<std::tuple<Powers, const char*, const char*>> {};
 
 Scene rough_cooling_gas(double density) {
-  Scene scene = test::scene_of(120, std::cbrt(120 / density), 11);
-  scene.collisions.epsilon = 0.85;
-  scene.collisions.beta = 0.25;
-  scene.collisions.tc_relative = 1e-3;
+  Scene scene =
+      test::inelastic(test::scene_of(120, std::cbrt(120 / density), 11), 0.85, 1e-3, 0.25);
   return scene;
 }
 
@@ -86,42 +85,6 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Combine(testing::Values(Powers{0, 5}, Powers{17, -40}, Powers{-18, 60}),
                      testing::Values("auto"), testing::Values("fast", "standard", "rigorous")),
     name_of);
-
-// The searches agree bit for bit where lengths are no powers of two, as they do for length 1.
-TEST(SpeciesOfAnyLength, HaveOneTrajectoryOnEverySearch_long) {
-  for (const double density : {0.5, 8.0}) {
-    for (const double length : {0.037, 21.3}) {
-      SCOPED_TRACE("density " + std::to_string(density) + ", length " + std::to_string(length));
-      Scene scene = test::with_species(rough_cooling_gas(density), length, 2.9);
-      std::string hash;
-      for (const char* search : {"all-pairs", "linked-lists", "linked-cells", "capsules"}) {
-        scene.engine.search = search;
-        const test::Recorded run = test::record(scene, 3000);
-        if (hash.empty()) hash = run.hash;
-        EXPECT_EQ(run.hash, hash) << search;
-      }
-    }
-  }
-}
-
-// Enough needles for several threads to share the work.
-TEST(SpeciesOfAnyLength, HaveOneTrajectoryOnThreads) {
-  for (const double length : {0.037, 21.3}) {
-    Scene scene = test::scene_of(3000, 16, 5);
-    scene.collisions.epsilon = 0.9;
-    scene.collisions.tc_relative = 1e-3;
-    scene = test::with_species(scene, length, 0.4);
-    const Scene::Until until = test::until_collisions(6);
-    Simulation one(scene);
-    one.advance(until);
-    scene.engine.threads = 3;
-    scene.engine.team = "all";
-    Simulation several(scene);
-    several.advance(until);
-    EXPECT_EQ(several.trajectory_hash(), one.trajectory_hash()) << length;
-    EXPECT_GT(several.counters().phases, 4 * several.counters().redone) << length;
-  }
-}
 
 }  // namespace
 }  // namespace needlework

@@ -8,7 +8,6 @@
 #include "needlework/parse.h"
 #include "src/engine/initial_gas.h"
 #include "src/engine/make_loop.h"
-#include "tests/support/parallel_loops.h"
 #include "tests/support/runs.h"
 
 namespace needlework {
@@ -61,49 +60,6 @@ TEST(OneSpecies, IsDrawnFromASceneMadeInCode) {
   scene.species[0].t_rot = 0.5;
   EXPECT_EQ(Simulation(scene).copy().velocity, Simulation(plain).copy().velocity);
   EXPECT_EQ(Simulation(scene).copy().angular_velocity, Simulation(plain).copy().angular_velocity);
-}
-
-// With the table every length, mass and inertia is looked up, and found to be what it was.
-TEST(TableOfSpecies, OfLengthAndMassOneChangesNoBit) {
-  for (const double beta : {-1.0, 0.3}) {
-    for (const bool contact_time : {false, true}) {
-      for (const double k : {6.0, 2.3}) {
-        Scene scene = test::scene_of(150, 5, 9);
-        scene.needles.k = k;
-        scene.collisions.beta = beta;
-        // Without a contact time an inelastic pair of this scene collapses.
-        scene.collisions.epsilon = contact_time ? 0.95 : 1;
-        if (contact_time) scene.collisions.tc_relative = 1e-2;
-        const auto until = test::until_collisions(8);
-        Simulation simulation(scene);
-        simulation.advance(until);
-        for (const char* search : {"all-pairs", "linked-lists", "linked-cells", "capsules"}) {
-          SCOPED_TRACE(test::name_of(scene) + ", " + search);
-          needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
-          EXPECT_FALSE(run.effects.table);
-          run.effects.table = true;
-          const auto loop = make_loop(run, {.search = search, .calendar = "tournament"});
-          EXPECT_EQ(loop->advance(StopConditions(run, until)), Stop::collisions);
-          EXPECT_EQ(run.tally.hash.hex(), simulation.trajectory_hash());
-        }
-      }
-    }
-  }
-}
-
-TEST(TableOfSpecies, OfLengthAndMassOneChangesNoBitOnThreads_long) {
-  const Scene scene = test::scene_of(500, 6, 9);
-  const auto until = test::until_collisions(8);
-  Simulation simulation(scene);
-  simulation.advance(until);
-  for (const char* search : {"linked-cells", "capsules"}) {
-    needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
-    run.effects.table = true;
-    const auto loop = test::parallel_loop(run, search, 3, test::short_phases);
-    EXPECT_EQ(loop->advance(StopConditions(run, until)), Stop::collisions);
-    EXPECT_EQ(run.tally.hash.hex(), simulation.trajectory_hash()) << search;
-    EXPECT_GT(run.tally.counters.phases, run.tally.counters.redone) << search;
-  }
 }
 
 }  // namespace

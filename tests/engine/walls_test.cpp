@@ -14,42 +14,14 @@
 #include "src/engine/initial_gas.h"
 #include "src/engine/make_loop.h"
 #include "src/engine/run.h"
-#include "tests/support/parallel_loops.h"
-#include "tests/support/runs.h"
-#include "tests/support/trajectories.h"
+#include "tests/engine/effect_scenes.h"
+#include "tests/support/message_of.h"
+#include "tests/support/scenes.h"
 
 namespace needlework {
 namespace {
 
-using test::loop_of;
-using test::Trajectory;
-using test::trajectory_of;
 using test::until_time;
-
-// A vibrated binary mixture under gravity, rough and inelastic, between walls on two axes.
-Scene shaken(std::uint64_t count = 160) {
-  Scene scene;
-  scene.needles.box = {7, 4, 5};
-  scene.species = {
-      {.name = "long", .count = count / 4, .length = 1, .mass = 1, .k = 6, .t_tr = 1, .t_rot = 1},
-      {.name = "short",
-       .count = count - count / 4,
-       .length = 0.5,
-       .mass = 0.4,
-       .k = 3,
-       .t_tr = 1,
-       .t_rot = 1}};
-  scene.collisions.epsilon = 0.9;
-  scene.collisions.beta = 0.2;
-  scene.collisions.tc = 1e-4;
-  scene.walls = {{.axis = "z",
-                  .side = "low",
-                  .epsilon = 0.8,
-                  .motion = Scene::WallMotion{.amplitude = 0.1, .frequency = 2, .phase = 0.3}},
-                 {.axis = "y", .side = "both", .epsilon = 0.95}};
-  scene.forces.gravity = {0, 0, -1};
-  return scene;
-}
 
 struct Hit {
   double time;
@@ -61,13 +33,9 @@ struct Hit {
 // of the collisions, and must not count for the mean free time: t_c would shrink with them until no
 // bounce is resolved.
 TEST(WallsAndGravity, LetPairsSlideInASmallGas) {
-  Scene scene;
-  scene.needles.count = 30;
-  scene.needles.box = {3, 3, 2};
+  Scene scene = test::inelastic(test::scene_of(30, 3, 2), 0.8);
+  scene.needles.box[2] = 2;
   scene.needles.k = 2;
-  scene.needles.seed = 2;
-  scene.collisions.epsilon = 0.8;
-  scene.collisions.tc_relative = 1e-3;
   scene.walls = {{.axis = "z", .side = "both"}};
   needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
   const auto loop = make_loop(run, {.search = "linked-cells", .calendar = "tournament"});
@@ -77,92 +45,8 @@ TEST(WallsAndGravity, LetPairsSlideInASmallGas) {
   EXPECT_LT(run.windows.mean_free_time(), 5);
 }
 
-TEST(WallsAndGravity, HaveOneTrajectory) {
-  const Scene scene = shaken();
-  const Trajectory first = trajectory_of(scene, loop_of("all-pairs", "lazy-heap"), 5);
-  EXPECT_GT(first.events, 300u);
-  EXPECT_GT(first.collisions, 250u);
-  for (const char* search : {"linked-lists", "linked-cells", "capsules"}) {
-    for (const char* calendar : {"lazy-heap", "tournament", "cell-calendar"}) {
-      const Trajectory other = trajectory_of(scene, loop_of(search, calendar), 5);
-      EXPECT_EQ(other.hash, first.hash) << search << ", " << calendar;
-      EXPECT_EQ(other.events, first.events);
-    }
-  }
-}
-
-TEST(WallsAndGravity, HaveOneTrajectoryOnThreads) {
-  Scene scene = shaken(1200);
-  scene.needles.box = {14, 10, 6};
-  const Trajectory first = trajectory_of(scene, loop_of("linked-cells", "tournament"), 1.5);
-  for (const char* search : {"linked-cells", "capsules"}) {
-    for (const double sight : {1.6, 0.3}) {
-      const auto make = [&](needlework::Run& run) {
-        return test::parallel_loop(run, search, 3, {.sight = sight, .least = 1, .by_cost = false});
-      };
-      EXPECT_EQ(trajectory_of(scene, make, 1.5).hash, first.hash) << search << ", " << sight;
-    }
-  }
-}
-
-TEST(WallsAndGravity, ContinueFromACheckpointBitForBit) {
-  const Scene scene = shaken();
-  Scene other = scene;
-  other.walls[0].motion->frequency *= 1.01;
-  test::expect_to_continue(scene, 1.3, 3, other);
-}
-
-// Between thermal walls, with gravity along a periodic axis and along an open one: needles cross
-// the box ever faster, and its border in all cells.
-Scene chute(std::uint64_t count = 160) {
-  Scene scene = shaken(count);
-  scene.walls = {{.axis = "z", .side = "low", .temperature = 1}};
-  scene.forces.gravity = {3, -0.7, -1};
-  return scene;
-}
-
-TEST(GravityAlongPeriodicAxes, HasOneTrajectory) {
-  const Scene scene = chute();
-  const Trajectory first = trajectory_of(scene, loop_of("all-pairs", "lazy-heap"), 5);
-  EXPECT_GT(first.events, 300u);
-  EXPECT_GT(first.collisions, 250u);
-  for (const char* search : {"linked-lists", "linked-cells", "capsules"}) {
-    for (const char* calendar : {"tournament", "cell-calendar"}) {
-      const Trajectory other = trajectory_of(scene, loop_of(search, calendar), 5);
-      EXPECT_EQ(other.hash, first.hash) << search << ", " << calendar;
-      EXPECT_EQ(other.events, first.events);
-    }
-  }
-}
-
-TEST(GravityAlongPeriodicAxes, HasOneTrajectoryOnThreads) {
-  Scene scene = chute(1200);
-  scene.needles.box = {14, 10, 6};
-  const Trajectory first = trajectory_of(scene, loop_of("linked-cells", "tournament"), 1.5);
-  for (const char* search : {"linked-cells", "capsules"}) {
-    const auto make = [&](needlework::Run& run) {
-      return test::parallel_loop(run, search, 3, {.sight = 1.6, .least = 1, .by_cost = false});
-    };
-    EXPECT_EQ(trajectory_of(scene, make, 1.5).hash, first.hash) << search;
-  }
-}
-
-TEST(GravityAlongPeriodicAxes, ContinuesFromACheckpointBitForBit) {
-  const Scene scene = chute();
-  Scene other = scene;
-  other.forces.gravity[0] *= 1.01;
-  test::expect_to_continue(scene, 1.3, 3, other);
-  Simulation whole(scene), half(scene);
-  whole.advance(until_time(3));
-  half.advance(until_time(1.3));
-  Simulation rest(scene, half.checkpoint());
-  rest.advance(until_time(3));
-  EXPECT_EQ(rest.energy_budget().gravity, whole.energy_budget().gravity);
-  EXPECT_NEAR(whole.energy_drift(), 0, 1e-12);
-}
-
 TEST(GravityAlongPeriodicAxes, HasNoEndByEnergy) {
-  Simulation run(chute());
+  Simulation run(test::effect_scene("chute"));
   Scene::Until until;
   until.energy_ratio = 0.5;
   EXPECT_THROW(run.advance(until), InputError);
@@ -284,12 +168,9 @@ TEST(OneNeedle, ThatClattersEndsInAnErrorOrByTheContactTime) {
   scene.forces.gravity = {0, 0, -1};
   const State start = state_of(scene, {2, 2, 1.2}, {0.6, 0, 0.8}, {0.3, 0, 0}, {0, 0.1, 0});
   Simulation falls(scene, start);
-  try {
-    falls.advance(until_time(50));
-    FAIL() << "no collapse";
-  } catch (const InvalidStateError& error) {
-    EXPECT_NE(std::string(error.what()).find("wall of axis z"), std::string::npos) << error.what();
-  }
+  const std::string why =
+      test::message_of<InvalidStateError>([&] { falls.advance(until_time(50)); });
+  EXPECT_NE(why.find("wall of axis z"), std::string::npos) << why;
   scene.collisions.tc = 1e-3;
   scene.collisions.epsilon = 0.9;
   Simulation clatters(scene, start);
@@ -317,12 +198,9 @@ TEST(OneNeedle, ThatLiesOnTheFloorAtRest) {
     for (const double height : {0.0, 0x1p-60, -0x1p-60}) {
       if (epsilon == 1 && height > 0) continue;  // it bounces on, 1e9 times in unit time
       Simulation falls(scene, lying(height));
-      try {
-        falls.advance(until_time(1));
-        ADD_FAILURE() << "no error at height " << height << ", epsilon " << epsilon;
-      } catch (const InvalidStateError& error) {
-        EXPECT_NE(std::string(error.what()).find("collapse"), std::string::npos) << error.what();
-      }
+      const std::string why =
+          test::message_of<InvalidStateError>([&] { falls.advance(until_time(1)); });
+      EXPECT_NE(why.find("collapse"), std::string::npos) << why << height << ", " << epsilon;
     }
   }
 }

@@ -8,6 +8,7 @@
 #include "needlework/initial_state.h"
 #include "tests/hard_cases/hard_scene.h"
 #include "tests/support/random.h"
+#include "tests/support/scenes.h"
 
 namespace needlework::test {
 namespace {
@@ -58,13 +59,9 @@ TEST(FewNeedles, TwoOrThreeMeetAndCool) {
 // In the end they are so slow that the next collision is later than all representable times, which
 // end at 2^62 initial mean free times.
 TEST(FewNeedles, TwoMayCoolToTheEndOfTheClock) {
-  Scene scene = scene_of(2, 2.01, 78);
-  scene.collisions.epsilon = 0.5;
-  scene.collisions.beta = -0.06425226462371303;
-  scene.collisions.tc_relative = 1e-5;
+  Scene scene = test::inelastic(scene_of(2, 2.01, 78), 0.5, 1e-5, -0.06425226462371303);
   for (const int threads : {1, 2}) {
-    scene.engine.threads = threads;
-    scene.engine.team = "all";
+    scene = test::on_threads(scene, threads);
     Simulation simulation(scene);
     EXPECT_THROW(simulation.advance(until_collisions(1e6)), InvalidStateError);
     const Totals cold = simulation.totals();
@@ -147,10 +144,7 @@ TEST(Inertia, MayBeOfAnySize_long) {
 TEST(Restitution, MayBeAnyOfItsRange_long) {
   for (const double beta : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
     for (const double epsilon : {1.0, 0.5, 0.0}) {
-      Scene scene = gas(60, 3);
-      scene.collisions.epsilon = epsilon;
-      scene.collisions.beta = beta;
-      scene.collisions.tc_relative = 1e-2;
+      Scene scene = test::inelastic(gas(60, 3), epsilon, 1e-2, beta);
       SCOPED_TRACE(name_of(scene));
       const HardRun run =
           run_hard(scene, until_collisions(6.0 / thin), {.everywhere = false, .undecided = 20});
@@ -197,9 +191,7 @@ TEST(Density, MayBeTwoHundred_long) {
 
 // To 1e-30 of the energy, at times of 1e15: the resolution of time is the same as at the start.
 TEST(LongTimes, EnergyFallsBy30Decades_long) {
-  Scene scene = gas(40, 3);
-  scene.collisions.epsilon = 0.6;
-  scene.collisions.tc_relative = 1e-3;
+  Scene scene = test::inelastic(gas(40, 3), 0.6);
   const HardRun run = run_hard(scene, until_energy(thin == 1 ? 1e-30 : 1e-6),
                                {.everywhere = false, .share = 0.05, .undecided = 10});
   EXPECT_EQ(run.stop, Stop::energy);
@@ -226,28 +218,36 @@ TEST(LongTimes, AContactAt1e15IsOnTime) {
 // All velocities times a power of two give the same trajectory, bit for bit, up to the ends of the
 // range.
 TEST(Scaling, ByPowersOfTwoToTheEndsOfTheRange) {
-  Scene scene = gas(100, 4);
-  scene.collisions.epsilon = 0.8;
-  scene.collisions.tc_relative = 1e-3;
-  const State state = draw_initial_state(scene);
-  const double collisions = 600.0 / thin;
-  const Recorded truth = record(scene, state, collisions);
-  for (const int power : {300, -300, 400, -400}) {
-    SCOPED_TRACE(power);
-    State scaled = state;
-    for (auto* rows : {&scaled.velocity, &scaled.angular_velocity}) {
-      for (Three& row : *rows) row = std::ldexp(1.0, power) * row;
+  Scene absolute = gas(100, 4);
+  absolute.collisions = {.epsilon = 0.8, .tc = 1e-3};
+  for (const Scene& scene :
+       {inelastic(gas(100, 4), 0.8), inelastic(gas(120, 4), 0.9, 1e-3, 0.3), absolute}) {
+    const State state = draw_initial_state(scene);
+    const double collisions = 600.0 / thin;
+    const Recorded truth = record(scene, state, collisions);
+    for (const int power : {-60, 60, 300, -300, 400, -400}) {
+      SCOPED_TRACE(name_of(scene) + ", times 2^" + std::to_string(power));
+      State scaled = state;
+      for (auto* rows : {&scaled.velocity, &scaled.angular_velocity}) {
+        for (Three& row : *rows) row = std::ldexp(1.0, power) * row;
+      }
+      Scene faster = scene;
+      if (scene.collisions.tc) faster.collisions.tc = std::ldexp(*scene.collisions.tc, -power);
+      const Recorded run = record(faster, scaled, collisions);
+      ASSERT_EQ(run.epoch_length, std::ldexp(truth.epoch_length, -power));
+      ASSERT_EQ(run.collisions.size(), truth.collisions.size());
+      for (std::size_t n = 0; n < truth.collisions.size(); ++n) {
+        const Collision &a = truth.collisions[n], &b = run.collisions[n];
+        ASSERT_TRUE(a.first == b.first && a.second == b.second && a.shift == b.shift &&
+                    a.epoch == b.epoch && std::ldexp(a.offset, -power) == b.offset &&
+                    a.arm_first == b.arm_first && a.contact_time_rule == b.contact_time_rule &&
+                    std::ldexp(a.impulse[0], power) == b.impulse[0] &&
+                    std::ldexp(a.impulse[1], power) == b.impulse[1])
+            << n;
+      }
+      EXPECT_EQ(run.end.position, truth.end.position);
+      EXPECT_EQ(run.end.orientation, truth.end.orientation);
     }
-    const Recorded run = record(scene, scaled, collisions);
-    ASSERT_EQ(run.collisions.size(), truth.collisions.size());
-    for (std::size_t n = 0; n < truth.collisions.size(); ++n) {
-      const Collision &a = truth.collisions[n], &b = run.collisions[n];
-      ASSERT_TRUE(a.first == b.first && a.second == b.second && a.epoch == b.epoch &&
-                  std::ldexp(a.offset, -power) == b.offset && a.arm_first == b.arm_first &&
-                  std::ldexp(a.impulse[1], power) == b.impulse[1])
-          << n;
-    }
-    EXPECT_EQ(run.end.position, truth.end.position);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "needlework/error.h"
 #include "needlework/initial_state.h"
 #include "tests/support/audit_setup.h"
+#include "tests/support/scenes.h"
 #include "tests/support/searches.h"
 
 namespace needlework::test {
@@ -199,8 +200,7 @@ HardRun run_hard(const Scene& given, const State& state, const Scene::Until& unt
     }
     scene.engine = {};
   }
-  scene.engine.threads = 2;
-  scene.engine.team = "all";
+  scene = test::on_threads(scene, 2);
   for (const char* search : {"linked-cells", "capsules"}) {
     scene.engine.search = search;
     expect_same(truth, run_once(scene, state, until, nullptr),

@@ -9,6 +9,7 @@
 #include "needlework/error.h"
 #include "tests/hard_cases/hard_scene.h"
 #include "tests/support/random.h"
+#include "tests/support/scenes.h"
 #include "tests/support/sides.h"
 
 namespace needlework::test {
@@ -23,9 +24,7 @@ Scene elastic(double k = 6) {
 }
 
 Scene cooling(double epsilon = 0.8) {
-  Scene scene = scene_of(0, 3);
-  scene.collisions.epsilon = epsilon;
-  scene.collisions.tc_relative = 1e-3;
+  Scene scene = test::inelastic(scene_of(0, 3), epsilon);
   return scene;
 }
 

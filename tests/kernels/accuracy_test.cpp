@@ -10,7 +10,8 @@
 #include "kernels/first_contact.h"
 #include "tests/kernels/precise_contact.h"
 #include "tests/support/by_build.h"
-#include "tests/support/kernel_pair.h"
+#include "tests/support/collided_pair.h"
+#include "tests/support/family_name.h"
 #include "tests/support/pairs_csv.h"
 
 namespace needlework::kernels {
@@ -21,15 +22,6 @@ using test::NeedlePair;
 using test::Quad;
 
 constexpr std::size_t accuracy_count = test::by_build<std::size_t>(3000, 100);
-
-KernelPair held_pair(const NeedlePair& drawn) {
-  KernelPair pair = test::kernel_pair(drawn);
-  if (drawn.just_collided) {
-    const int side = side_after(pair.view());
-    pair.touch = {.touching = side != 0, .collided = true, .side = side, .gap = 0};
-  }
-  return pair;
-}
 
 Contact contact_of(const KernelPair& pair, double horizon, const Accuracy& accuracy) {
   EvaluationCounters counters;
@@ -72,7 +64,7 @@ TEST_P(AccuracyLevels, RigorousTimesAreExact) {
   double worst = 0, worst_standard = 0;
   std::size_t contacts = 0, in_noise = 0;
   for (const NeedlePair& drawn : test::draw_pairs(GetParam().name, accuracy_count, 41)) {
-    const KernelPair pair = held_pair(drawn);
+    const KernelPair pair = test::collided_pair(drawn);
     const Contact rigorous = contact_of(pair, drawn.horizon, rigorous_accuracy);
     const Contact standard = contact_of(pair, drawn.horizon, standard_accuracy);
     ASSERT_EQ(rigorous.found, standard.found) << test::csv_line(0, drawn);
@@ -107,7 +99,7 @@ TEST_P(AccuracyLevels, RigorousTimesAreExact) {
 // Isolation by intervals with the rest as in `standard`: the same contacts.
 TEST_P(AccuracyLevels, IsolationsAgree) {
   for (const NeedlePair& drawn : test::draw_pairs(GetParam().name, accuracy_count, 42)) {
-    const KernelPair pair = held_pair(drawn);
+    const KernelPair pair = test::collided_pair(drawn);
     const Contact one = contact_of(pair, drawn.horizon, standard_accuracy);
     const Contact two = contact_of(pair, drawn.horizon, {.isolation = Isolation::intervals});
     ASSERT_EQ(one.found, two.found) << test::csv_line(0, drawn);
@@ -120,7 +112,7 @@ TEST_P(AccuracyLevels, IsolationsAgree) {
 TEST_P(AccuracyLevels, EscalationCanBeOff) {
   EvaluationCounters counters;
   for (const NeedlePair& drawn : test::draw_pairs(GetParam().name, accuracy_count / 10, 43)) {
-    const KernelPair pair = held_pair(drawn);
+    const KernelPair pair = test::collided_pair(drawn);
     first_contact(pair.view(), 0, drawn.horizon, counters, fast_accuracy);
     first_contact(pair.view(), 0, drawn.horizon, counters,
                   {.isolation = Isolation::sampling, .escalation = Escalation::never});
@@ -134,7 +126,7 @@ TEST_P(AccuracyLevels, SkippingChangesNoBit) {
   const Accuracy accuracies[] = {
       fast_accuracy, rigorous_accuracy, {.isolation = Isolation::sampling}};
   for (const NeedlePair& drawn : test::draw_pairs(GetParam().name, accuracy_count / 10, 44)) {
-    const KernelPair pair = held_pair(drawn);
+    const KernelPair pair = test::collided_pair(drawn);
     for (const Accuracy& accuracy : accuracies) {
       const Contact whole = contact_of(pair, drawn.horizon, accuracy);
       if (!whole.found || whole.unresolvable) continue;
@@ -147,21 +139,15 @@ TEST_P(AccuracyLevels, SkippingChangesNoBit) {
   }
 }
 
-std::string test_name(const testing::TestParamInfo<test::PairFamily>& info) {
-  std::string text(info.param.name);
-  std::replace(text.begin(), text.end(), '-', '_');
-  return text;
-}
-
 INSTANTIATE_TEST_SUITE_P(Families, AccuracyLevels, testing::ValuesIn(test::pair_families()),
-                         test_name);
+                         test::family_name);
 
 TEST(Accuracy, AFinerRootToleranceGivesTimesCloser) {
   double off[3] = {};
   const double tolerance[3] = {1e-3, 1e-5, 0};
   // In debug builds too: few of these pairs need the last step.
   for (const NeedlePair& drawn : test::draw_pairs("thermal-k6", 30000, 45)) {
-    const KernelPair pair = held_pair(drawn);
+    const KernelPair pair = test::collided_pair(drawn);
     const Contact truth = contact_of(pair, drawn.horizon, rigorous_accuracy);
     if (!truth.found) continue;
     for (int i = 0; i < 3; ++i) {

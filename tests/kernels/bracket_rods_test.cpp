@@ -58,7 +58,7 @@ TEST_P(BracketRods, IsNeverTooLate) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, BracketRods, testing::ValuesIn(test::pair_families()),
-                         [](const auto& info) { return family_id(info.param); });
+                         test::family_name);
 
 }  // namespace
 }  // namespace needlework::kernels

@@ -87,7 +87,7 @@ TEST_P(Curvature, IsWithinBounds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, Curvature, testing::ValuesIn(test::pair_families()),
-                         [](const auto& info) { return family_id(info.param); });
+                         test::family_name);
 
 // Two needles that turn against each other in parallel planes, whose directors' product turns with
 // both angular velocities: far from each other, where the arm counts, or fast through each other's
@@ -193,7 +193,7 @@ TEST_P(FreeShares, EndBeforeTheContact) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, FreeShares, testing::ValuesIn(test::pair_families()),
-                         [](const auto& info) { return family_id(info.param); });
+                         test::family_name);
 
 }  // namespace
 }  // namespace needlework::kernels

@@ -305,21 +305,6 @@ TEST(PreciseContact, DerivativesAreThoseOfTheFunction) {
   }
 }
 
-// Two crossed needles, the first rising: f = z(t), no rotation.
-TEST(ContactFunctionByHand, IsTheDistanceTimesTheSineOfTheAngle) {
-  KernelPair held;
-  held.first = test::flight({0.25, 0, -0.5}, {1, 0, 0}, {0, 0, 1}, {});
-  held.second = test::flight({0, 0, 0}, {0, 1, 0}, {}, {});
-  const Pair pair = held.view();
-  const PairScale scale = scale_of(pair);
-  EXPECT_EQ(scale.per_rate, 1);
-  const Frame<double> frame = make_frame<double>(pair, scale);
-  const Sample<double> sample = evaluate(frame, 2.0);
-  EXPECT_EQ(sample.f, 1.5);
-  EXPECT_EQ(sample.df, 1);
-  EXPECT_EQ(sample.ddf, 0);
-}
-
 TEST(PairScale, BringsTheRateBetweenOneAndTwo) {
   Random random(function_seed);
   for (int n = 0; n < 1000; ++n) {

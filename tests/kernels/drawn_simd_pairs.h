@@ -11,8 +11,8 @@
 #include "kernels/near_needles.h"
 #include "tests/kernels/simd_pairs.h"
 #include "tests/support/by_build.h"
-#include "tests/support/kernel_pair.h"
-#include "tests/support/pair_families.h"
+#include "tests/support/collided_pair.h"
+#include "tests/support/family_name.h"
 #include "tests/support/random.h"
 
 namespace needlework::kernels {
@@ -57,10 +57,7 @@ inline SimdPair simd_pair(Random& random, const test::NeedlePair& drawn, Halves 
   out.pair = lengthened(kernel_pair(drawn), 2 * std::max(halves.first, halves.second));
   out.pair.half_first = halves.first;
   out.pair.half_second = halves.second;
-  if (drawn.just_collided) {
-    const int side = side_after(out.pair.view());
-    out.pair.touch = {.touching = side != 0, .collided = true, .side = side, .gap = 0};
-  }
+  if (drawn.just_collided) test::take_side_of_collision(out.pair);
   EvaluationCounters work;
   const double horizon = drawn.horizon * (random.coin() ? 1 : random.uniform());
   out.truth = first_contact(out.pair.view(), 0, horizon, work);
@@ -98,12 +95,6 @@ inline std::vector<std::string_view> family_names() {
   std::vector<std::string_view> out;
   for (const test::PairFamily& family : test::pair_families()) out.push_back(family.name);
   return out;
-}
-
-inline std::string family_id(const test::PairFamily& family) {
-  std::string name(family.name);
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
 }
 
 }  // namespace needlework::kernels

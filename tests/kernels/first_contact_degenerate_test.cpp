@@ -110,15 +110,6 @@ TEST(FirstContactOfFlatFunctions, DoesNotDependOnWhereTheSearchStarts) {
   EXPECT_GT(contacts, degenerate_count);
 }
 
-// Centres and records coincide with the grid: an interval that ends at the contact holds it.
-TEST(FirstContactOfFlatFunctions, OnTheGridIsFoundFromTheContactItself) {
-  KernelPair pair;
-  pair.first = flight({0.1, 0.05, -0.5}, {1, 0, 0}, {0, 0, 1}, {});
-  pair.second = flight({0, 0, 0}, {0, 1, 0}, {}, {});
-  ASSERT_EQ(answer_of(pair, 0, 1).contact.elapsed, DoubleDouble(0.5));
-  EXPECT_TRUE(answer_of(pair, 0.5, 1).contact.found);
-}
-
 // Beyond 1e8 the time span in which the centres are near must not drown in the rounding of |r|^2.
 TEST(FirstContactOfFlatFunctions, IsFoundFromFarAway) {
   for (const double distance : {1e7, 1e8, 1e9, 1e10}) {

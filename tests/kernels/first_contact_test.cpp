@@ -9,8 +9,8 @@
 
 #include "tests/kernels/precise_contact.h"
 #include "tests/support/by_build.h"
-#include "tests/support/kernel_pair.h"
-#include "tests/support/pair_families.h"
+#include "tests/support/collided_pair.h"
+#include "tests/support/family_name.h"
 #include "tests/support/random.h"
 
 namespace needlework::kernels {
@@ -20,10 +20,8 @@ using test::axes_swapped;
 using test::exchanged;
 using test::flight;
 using test::KernelPair;
-using test::power_of_two;
 using test::Random;
 using test::real;
-using test::slowed;
 using test::vec3;
 using test::Wide;
 
@@ -55,11 +53,8 @@ struct Case {
 
 // A pair of one of the families, as it is or with its records of different ages.
 Case as_kernel_pair(const test::NeedlePair& drawn, Random& random) {
-  Case out{test::kernel_pair(drawn), drawn.horizon};
-  if (drawn.just_collided) {
-    const int side = side_after(out.pair.view());
-    out.pair.touch = {.touching = side != 0, .collided = true, .side = side, .gap = 0};
-  } else if (random.coin()) {
+  Case out{test::collided_pair(drawn), drawn.horizon};
+  if (!drawn.just_collided && random.coin()) {
     Flight& older = random.coin() ? out.pair.first : out.pair.second;
     const double age = drawn.horizon * random.uniform();
     older.r -= older.v * age;
@@ -141,27 +136,11 @@ TEST_P(FirstContact, OfSwappedAxesIsTheSame) {
   });
 }
 
-TEST_P(FirstContact, ScalesByPowersOfTwo) {
-  for_each_pair([](const Case& drawn, const Contact& contact, Random&) {
-    for (const int power : {-60, 60}) {
-      Contact other = find(slowed(drawn.pair, power), std::ldexp(drawn.until, power));
-      other.elapsed = power_of_two(other.elapsed, -power);
-      ASSERT_TRUE(same(contact, other)) << describe(contact) << ", " << describe(other);
-    }
-  });
-}
-
-static std::string family_name(const testing::TestParamInfo<test::PairFamily>& info) {
-  std::string text(info.param.name);
-  for (char& c : text) c = c == '-' ? '_' : c;
-  return text;
-}
-
 INSTANTIATE_TEST_SUITE_P(Families, FirstContact, testing::ValuesIn(test::pair_families()),
-                         family_name);
+                         test::family_name);
 
 INSTANTIATE_TEST_SUITE_P(Families, FirstContactFromAnywhere,
-                         testing::ValuesIn(test::pair_families()), family_name);
+                         testing::ValuesIn(test::pair_families()), test::family_name);
 
 // Without rotation f is linear: the only root and the arms are rational functions of the records.
 TEST(FirstContactWithoutRotation, IsWhereTheLinesMeet) {
@@ -325,7 +304,7 @@ TEST(FirstContactByHand, OnAPointOfTheDyadicGridIsFoundOnce) {
       ASSERT_TRUE(contact.found) << t;
       EXPECT_NEAR(contact.elapsed.hi, t, 0x1p-52);
       const double hi = contact.elapsed.hi;
-      for (const double from : {0.0, 0.9 * hi, std::nextafter(hi, 0)}) {
+      for (const double from : {0.0, 0.9 * hi, std::nextafter(hi, 0), hi}) {
         for (const double until : {hi, std::nextafter(hi, 2), 2.0}) {
           EXPECT_TRUE(same(find(held, from, until), contact)) << t << " from " << from;
         }

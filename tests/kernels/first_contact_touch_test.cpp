@@ -200,15 +200,8 @@ TEST(TimeApart, ScalesWithTheTime) {
   KernelPair pair = on_contact(random, 0.3);
   collided(pair);
   const double apart = time_apart(pair.view());
-  for (const int power : {-300, -1, 300}) {
-    KernelPair other = pair;
-    for (Flight* needle : {&other.first, &other.second}) {
-      needle->v = needle->v * std::ldexp(1.0, power);
-      needle->w = needle->w * std::ldexp(1.0, power);
-      set_rotation(*needle);
-    }
-    EXPECT_EQ(time_apart(other.view()), std::ldexp(apart, -power));
-  }
+  for (const int power : {-300, -1, 300})
+    EXPECT_EQ(time_apart(test::slowed(pair, power).view()), std::ldexp(apart, power));
 }
 
 TEST(FirstContactAfterCollision, WithoutRotationNeverReturns) {

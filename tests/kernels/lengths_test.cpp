@@ -10,7 +10,8 @@
 #include "kernels/first_contact.h"
 #include "tests/kernels/precise_contact.h"
 #include "tests/support/by_build.h"
-#include "tests/support/kernel_pair.h"
+#include "tests/support/collided_pair.h"
+#include "tests/support/family_name.h"
 #include "tests/support/oracle.h"
 #include "tests/support/pair_families.h"
 #include "tests/support/random.h"
@@ -44,11 +45,9 @@ Contact find_of_lengths(const KernelPair& pair, double until,
 /// A pair of a family with the state after a collision, if it has just had one, or a gap that it
 /// carries, if `gap` says so.
 KernelPair pair_of(const test::NeedlePair& drawn, Random& random, bool gap) {
-  KernelPair out = test::kernel_pair(drawn);
-  if (drawn.just_collided) {
-    const int side = side_after(out.view());
-    out.touch = {.touching = side != 0, .collided = true, .side = side, .gap = 0};
-  } else if (gap) {
+  KernelPair out = test::collided_pair(drawn);
+  if (drawn.just_collided) return out;
+  if (gap) {
     const int side = random.coin() ? 1 : -1;
     out.touch = {.touching = true,
                  .collided = false,
@@ -141,12 +140,6 @@ TEST_P(OddLengths, AgreeWithTheOracle) {
   }
 }
 
-std::string family_id(const testing::TestParamInfo<test::PairFamily>& info) {
-  std::string name(info.param.name);
-  for (char& c : name) c = c == '-' ? '_' : c;
-  return name;
-}
-
 /// Those that do not begin on a contact, of which rounding moves a touch to either side.
 std::vector<test::PairFamily> apart_at_first() {
   std::vector<test::PairFamily> out;
@@ -156,8 +149,10 @@ std::vector<test::PairFamily> apart_at_first() {
   return out;
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, Lengths, testing::ValuesIn(test::pair_families()), family_id);
-INSTANTIATE_TEST_SUITE_P(Families, OddLengths, testing::ValuesIn(apart_at_first()), family_id);
+INSTANTIATE_TEST_SUITE_P(Families, Lengths, testing::ValuesIn(test::pair_families()),
+                         test::family_name);
+INSTANTIATE_TEST_SUITE_P(Families, OddLengths, testing::ValuesIn(apart_at_first()),
+                         test::family_name);
 
 Vec3d any_vector(Random& random, double size) {
   return Vec3d{random.uniform(-size, size), random.uniform(-size, size),

@@ -32,10 +32,36 @@ std::vector<bool> marked(const std::vector<std::pair<std::uint32_t, std::uint32_
   return out;
 }
 
+// Places it exactly, for filters that take its path as an axis.
+void place(Seeker& seeker, const Vec3d& r, const Vec3d& u) {
+  for (int axis = 0; axis < 3; ++axis) {
+    seeker.r[axis] = static_cast<float>(component(r, axis));
+    seeker.u[axis] = static_cast<float>(component(u, axis));
+  }
+}
+
+// Counts what is within a distance, which a filter must find, and what is beyond a wider one, which
+// it must not. A negative length is that of no needle.
+struct Counts {
+  std::size_t within = 0, beyond = 0;
+
+  void expect(const std::vector<bool>& found, const std::vector<double>& lengths, double distance,
+              double wide, Isa isa) {
+    for (std::size_t k = 0; k < lengths.size(); ++k) {
+      if (lengths[k] < 0) continue;
+      within += lengths[k] <= distance;
+      beyond += lengths[k] > wide;
+      const bool is_wrong = found[k] ? lengths[k] > wide : lengths[k] <= distance;
+      ASSERT_FALSE(is_wrong) << (found[k] ? "found beyond " : "lost within ") << distance << ", at "
+                             << lengths[k] << ", seed " << seed << ", " << name_of(isa);
+    }
+  }
+};
+
 // Capsules that just overlap, just do not, and any.
 TEST(Overlapping, LosesNoCapsulesThatOverlapAndFindsFewOthers) {
   Random random(seed);
-  std::size_t overlaps = 0, apart = 0;
+  Counts counts;
   for (std::size_t n = 0; n < 2000 / thin; ++n) {
     const double radius = random.log_uniform(1e-3, 10);
     const Vec3d corner{4, 4, 4}, r = vec3(random.direction()) * random.uniform(0, 1.7);
@@ -73,25 +99,14 @@ TEST(Overlapping, LosesNoCapsulesThatOverlapAndFindsFewOthers) {
     for (const Isa isa : available()) {
       const std::vector<bool> found =
           marked(overlapping(near_kernels(isa), near, static_cast<float>(radius)), rows.size());
-      for (std::size_t k = 0; k < rows.size(); ++k) {
-        const double off = distance[k] - 2 * radius;
-        // Squares of distances have a margin of 2^-14.
-        const double wide =
-            std::hypot(2 * radius + 1e-4 * (1 + radius) + 7 * format.step(), std::sqrt(0x1p-14));
-        if (off <= 0) {
-          ++overlaps;
-          ASSERT_TRUE(found[k]) << "overlap by " << -off << ", radius " << radius << ", seed "
-                                << seed << ", " << name_of(isa);
-        } else if (distance[k] > wide) {
-          ++apart;
-          ASSERT_FALSE(found[k]) << "apart by " << off << ", radius " << radius << ", seed " << seed
-                                 << ", " << name_of(isa);
-        }
-      }
+      // Squares of distances have a margin of 2^-14.
+      const double wide =
+          std::hypot(2 * radius + 1e-4 * (1 + radius) + 7 * format.step(), std::sqrt(0x1p-14));
+      ASSERT_NO_FATAL_FAILURE(counts.expect(found, distance, 2 * radius, wide, isa));
     }
   }
-  EXPECT_GT(overlaps, 20000 / thin * available().size());
-  EXPECT_GT(apart, 5000 / thin * available().size());
+  EXPECT_GT(counts.within, 20000 / thin * available().size());
+  EXPECT_GT(counts.beyond, 5000 / thin * available().size());
 }
 
 // Thin capsules in small cells, so that places add little error. Where the square of the angle is
@@ -257,7 +272,7 @@ TEST(Approaching, LosesNoSpheresThatMeetAndFindsFewOthers) {
 // The path of the seeker beside capsules: it may be much longer than they are.
 TEST(NearCapsules, LosesNoneAndFindsFewOthers) {
   Random random(seed);
-  std::size_t near_ones = 0, apart = 0;
+  Counts counts;
   for (std::size_t n = 0; n < 2000 / thin; ++n) {
     const double distance = random.log_uniform(1e-3, 3), h2 = random.uniform(0.01, 0.5);
     const double h1 = random.below(8) == 0 ? 0 : random.log_uniform(1e-3, 6);
@@ -266,10 +281,7 @@ TEST(NearCapsules, LosesNoneAndFindsFewOthers) {
     Seeker seeker = seeker_of({}, 1, h2);
     const double farthest = h1 + distance + 3;
     const WordFormat format = WordFormat::holding(9 - farthest, 9 + farthest);
-    for (int axis = 0; axis < 3; ++axis) {
-      seeker.r[axis] = static_cast<float>(component(corner + r, axis));
-      seeker.u[axis] = static_cast<float>(component(u, axis));
-    }
+    place(seeker, corner + r, u);
     seeker.axis_half = static_cast<float>(h1);
     seeker.margin += 0x1p-16f;
     std::vector<BlockRow> rows(40);
@@ -295,23 +307,13 @@ TEST(NearCapsules, LosesNoneAndFindsFewOthers) {
     for (const Isa isa : available()) {
       const std::vector<bool> found =
           marked(near_capsules(near_kernels(isa), near, static_cast<float>(distance)), rows.size());
-      for (std::size_t k = 0; k < rows.size(); ++k) {
-        if (lengths[k] <= distance) {
-          ++near_ones;
-          ASSERT_TRUE(found[k]) << "within by " << distance - lengths[k] << ", seed " << seed
-                                << ", " << name_of(isa);
-        } else if (lengths[k] >
-                   std::hypot(distance + 1e-4 * (1 + h1) + 8 * format.step(), 0x1p-10 * h1)) {
-          // The square has a margin for rough first guesses on the path.
-          ++apart;
-          ASSERT_FALSE(found[k]) << "apart by " << lengths[k] - distance << ", seed " << seed
-                                 << ", " << name_of(isa);
-        }
-      }
+      // The square has a margin for rough first guesses on the path.
+      const double wide = std::hypot(distance + 1e-4 * (1 + h1) + 8 * format.step(), 0x1p-10 * h1);
+      ASSERT_NO_FATAL_FAILURE(counts.expect(found, lengths, distance, wide, isa));
     }
   }
-  EXPECT_GT(near_ones, 20000 / thin * available().size());
-  EXPECT_GT(apart, 5000 / thin * available().size());
+  EXPECT_GT(counts.within, 20000 / thin * available().size());
+  EXPECT_GT(counts.beyond, 5000 / thin * available().size());
 }
 
 // Far out on a long path, where a first guess that is rough is farthest off, across thin capsules
@@ -328,10 +330,7 @@ TEST(NearCapsules, LosesNoneThatCrossALongPathFarOut) {
     Seeker seeker = seeker_of({}, 1, half);
     seeker.margin = 0x1p-16f;
     seeker.axis_half = path_half;
-    for (int axis = 0; axis < 3; ++axis) {
-      seeker.r[axis] = static_cast<float>(component(r, axis));
-      seeker.u[axis] = static_cast<float>(component(u, axis));
-    }
+    place(seeker, r, u);
     std::vector<BlockRow> rows(40);
     for (BlockRow& row : rows) {
       const Vec3d across = normalised(cross(u, vec3(random.direction())));
@@ -353,7 +352,7 @@ TEST(NearCapsules, LosesNoneThatCrossALongPathFarOut) {
 // Paths of others beside the seeker's capsule.
 TEST(NearPaths, LosesNoneAndFindsFewOthers) {
   Random random(seed);
-  std::size_t near_ones = 0, apart = 0;
+  Counts counts;
   const WordFormat format = WordFormat::holding(-2, 10);
   const double range = WordFormat::places * format.step();
   for (std::size_t n = 0; n < 2000 / thin; ++n) {
@@ -402,22 +401,12 @@ TEST(NearPaths, LosesNoneAndFindsFewOthers) {
     for (const Isa isa : available()) {
       const std::vector<bool> found =
           marked(near_paths(near_kernels(isa), near, static_cast<float>(distance)), rows.size());
-      for (std::size_t k = 0; k < rows.size(); ++k) {
-        if (lengths[k] < 0) continue;
-        if (lengths[k] <= distance) {
-          ++near_ones;
-          ASSERT_TRUE(found[k]) << "within by " << distance - lengths[k] << ", seed " << seed
-                                << ", " << name_of(isa);
-        } else if (lengths[k] > distance + 0.01 + 20 * format.step()) {
-          ++apart;
-          ASSERT_FALSE(found[k]) << "apart by " << lengths[k] - distance << ", seed " << seed
-                                 << ", " << name_of(isa);
-        }
-      }
+      const double wide = distance + 0.01 + 20 * format.step();
+      ASSERT_NO_FATAL_FAILURE(counts.expect(found, lengths, distance, wide, isa));
     }
   }
-  EXPECT_GT(near_ones, 10000 / thin * available().size());
-  EXPECT_GT(apart, 5000 / thin * available().size());
+  EXPECT_GT(counts.within, 10000 / thin * available().size());
+  EXPECT_GT(counts.beyond, 5000 / thin * available().size());
 }
 
 // Needles that fly nearly as far as they may, with words that make them seem late by nearly as much

@@ -45,42 +45,25 @@ class Worst {
   double sine_ = 0, cosine_ = 0;
 };
 
+// In general, for small arguments, next to multiples of pi/2, and next to odd ones of pi/4: there
+// the reduction changes from one multiple to the next, and the rest is largest.
 TEST(SineCosine, IsWithinFourFifthsOfAnUlp) {
   Random random(sine_seed);
-  Worst worst;
-  for (int i = 0; i < 10000; ++i) worst.take(random.uniform(-0x1p12, 0x1p12));
-  for (int i = 0; i < 10000; ++i) worst.take(random.uniform(-2, 2));
-  worst.expect_below(0.8);
-}
-
-TEST(SineCosine, IsWithinFourFifthsOfAnUlpNextToMultiplesOfHalfPi) {
-  Worst worst;
+  Worst anywhere, small, at_multiples, between;
+  for (int i = 0; i < 10000; ++i) anywhere.take(random.uniform(-0x1p12, 0x1p12));
+  for (int i = 0; i < 10000; ++i) anywhere.take(random.uniform(-2, 2));
+  for (int exponent = -1060; exponent <= 0; ++exponent)
+    small.take(std::ldexp(random.uniform(1, 2), exponent));
   for (int n = 1; n * half_pi <= 0x1p12; ++n) {
     const double x = static_cast<double>(n * (boost::math::constants::half_pi<cpp_bin_float_50>()));
-    worst.take(x);
-    worst.take(std::nextafter(x, 0));
-    worst.take(-std::nextafter(x, HUGE_VAL));
+    for (const double near : {x, std::nextafter(x, 0), -std::nextafter(x, HUGE_VAL)})
+      at_multiples.take(near);
   }
-  worst.expect_below(0.8);
-}
-
-// Where the reduction changes from one multiple of pi/2 to the next, the rest is largest.
-TEST(SineCosine, IsWithinFourFifthsOfAnUlpNextToOddMultiplesOfQuarterPi) {
-  Worst worst;
   for (int n = 0; n * half_pi <= 0x1p12; n += 2) {
     const double x = (n + 0.5) * half_pi;
-    for (const double near : {x * (1 - 0x1p-50), x, x * (1 + 0x1p-50)}) worst.take(near);
+    for (const double near : {x * (1 - 0x1p-50), x, x * (1 + 0x1p-50)}) between.take(near);
   }
-  worst.expect_below(0.8);
-}
-
-TEST(SineCosine, IsWithinFourFifthsOfAnUlpForSmallArguments) {
-  Random random(sine_seed);
-  Worst worst;
-  for (int exponent = -1060; exponent <= 0; ++exponent) {
-    worst.take(std::ldexp(random.uniform(1, 2), exponent));
-  }
-  worst.expect_below(0.8);
+  for (const Worst& worst : {anywhere, small, at_multiples, between}) worst.expect_below(0.8);
 }
 
 TEST(SineCosine, BeyondTwoToTheTwelfthTheErrorGrowsWithTheArgument) {
@@ -108,11 +91,16 @@ TEST(SineCosine, TinyAnglesAreTheirOwnSines) {
 
 TEST(SineCosine, OfTheOppositeAngleIsMirroredBitForBit) {
   Random random(sine_seed);
+  const auto expect_mirrored = [](const auto& x) {
+    const auto a = sine_cosine(x), b = sine_cosine(-x);
+    EXPECT_EQ(a.sine, -b.sine);
+    EXPECT_EQ(a.cosine, b.cosine);
+  };
   for (int i = 0; i < 100000; ++i) {
     const double x = std::ldexp(random.uniform(1, 2), i % 60 - 20);
-    const SineCosine<double> a = sine_cosine(x), b = sine_cosine(-x);
-    ASSERT_EQ(a.sine, -b.sine) << std::hexfloat << x << ", seed " << sine_seed;
-    ASSERT_EQ(a.cosine, b.cosine) << std::hexfloat << x << ", seed " << sine_seed;
+    expect_mirrored(x);
+    if (i % 10 == 0) expect_mirrored(two_sum(x, x * random.uniform(-0x1p-54, 0x1p-54)));
+    ASSERT_FALSE(HasFailure()) << std::hexfloat << x << ", seed " << sine_seed;
   }
 }
 
@@ -164,17 +152,6 @@ TEST(SineCosineInDoubleDouble, LosesNothingByReductionOfArgumentsInUse) {
     const double worst = worst_precise(random, exponent, 100);
     EXPECT_LT(worst * (1 + std::ldexp(1.0, exponent)), 1)
         << "|x| about 2^" << exponent << ", seed " << sine_seed;
-  }
-}
-
-TEST(SineCosineInDoubleDouble, OfTheOppositeAngleIsMirroredBitForBit) {
-  Random random(sine_seed);
-  for (int i = 0; i < 10000; ++i) {
-    const double hi = std::ldexp(random.uniform(1, 2), i % 60 - 20);
-    const DoubleDouble x = two_sum(hi, hi * random.uniform(-0x1p-54, 0x1p-54));
-    const SineCosine<DoubleDouble> a = sine_cosine(x), b = sine_cosine(-x);
-    ASSERT_EQ(a.sine, -b.sine) << std::hexfloat << hi << ", seed " << sine_seed;
-    ASSERT_EQ(a.cosine, b.cosine) << std::hexfloat << hi << ", seed " << sine_seed;
   }
 }
 

@@ -1,4 +1,4 @@
-// First contacts of tips with walls, against sampling and bisection with 33 digits.
+// First contacts of tips with walls, against an oracle with 33 digits.
 #include "kernels/wall_contact.h"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,6 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "src/physics/clock.h"
 #include "tests/support/wall_oracle.h"
@@ -15,63 +14,9 @@ namespace needlework::kernels {
 namespace {
 
 using test::DrawnWalls;
-using test::TipHeight;
 using test::WallCase;
 using test::WallComparison;
 using test::WallFamily;
-using test::WallQuad;
-
-struct Found {
-  WallQuad time;
-  int tip;
-};
-
-// Looks at small steps, then bisects.
-std::optional<Found> sampled(const WallCase& a, double to, int steps) {
-  std::optional<Found> out;
-  for (int tip = 0; tip < 2; ++tip) {
-    const TipHeight<WallQuad> tips(a, tip);
-    WallQuad before = 0;
-    for (int n = 1; n <= steps; ++n) {
-      WallQuad at = WallQuad(to) * n / steps;
-      if (out && before > out->time) break;
-      if (tips.height(at) < 0) {
-        WallQuad low = before;
-        for (int k = 0; k < 110; ++k) {
-          const WallQuad middle = (low + at) / 2;
-          (tips.height(middle) < 0 ? at : low) = middle;
-        }
-        if (!out || at < out->time) out = Found{at, tip};
-        break;
-      }
-      before = at;
-    }
-  }
-  return out;
-}
-
-TEST(WallContact, IsThatOfSamplingInQuad_long) {
-  DrawnWalls drawn(1);
-  int contacts = 0, none = 0;
-  for (int n = 0; n < 160; ++n) {
-    const WallCase a = drawn.draw(static_cast<WallFamily>(n % 4));
-    const double to = 3;
-    const WallContact found = first_wall_contact(a.approach, 0, to);
-    const auto truth = sampled(a, to, 1000);
-    ASSERT_EQ(found.found, truth.has_value()) << n;
-    ASSERT_FALSE(found.across);
-    if (!found.found) {
-      ++none;
-      continue;
-    }
-    ++contacts;
-    EXPECT_EQ(found.tip, truth->tip) << n;
-    // A part of the resolution divided by the speed of approach, of which few are slow.
-    EXPECT_NEAR(found.elapsed, static_cast<double>(truth->time), 1e-14) << n;
-  }
-  EXPECT_GT(contacts, 60);
-  EXPECT_GT(none, 10);
-}
 
 // bench_wall_accuracy counts the same over millions of cases.
 TEST(WallContact, IsThatOfTheOracleInEveryFamily) {
@@ -165,47 +110,6 @@ TEST(WallContact, ComesBackAfterABounce) {
   a.flight.r = {0, 0, 0.5};
   a.flight.v = {0, 0, 1e-16};
   EXPECT_TRUE(first_wall_contact(a.approach, 0, 10).unresolvable);
-}
-
-// A needle that lies on the wall, its centre coming down: the tip at +u first, at once.
-TEST(WallContact, OfBothTipsAtOnceIsThatOfTheFirst) {
-  WallCase a;
-  a.approach.resolution = 0x1p-52;
-  a.approach.tolerance = 0x1p-44;
-  a.approach.wall.axis = 2;
-  a.flight.u = {1, 0, 0};
-  a.flight.r = {0, 0, 1};
-  a.flight.v = {0, 0, -1};
-  WallContact found = first_wall_contact(a.approach, 0, 10);
-  EXPECT_EQ(found.tip, 0);
-  EXPECT_EQ(found.elapsed, 1);
-  // After the first tip has hit: the other one still approaches.
-  a.flight.r = {0, 0, 0};
-  a.flight.v = {0, 0, -0.5};
-  a.flight.w = {0, -4, 0};  // lifts the tip at +u
-  set_rotation(a.flight);
-  a.approach.touching = 1;
-  found = first_wall_contact(a.approach, 0, 10);
-  ASSERT_TRUE(found.found);
-  EXPECT_EQ(found.tip, 1);
-  EXPECT_EQ(found.elapsed, 0);
-  EXPECT_FALSE(found.unresolvable);
-}
-
-TEST(WallContact, SeesAWallThatCatchesUp) {
-  // The needle rises at speed 1; the wall, at rest at first, comes from behind at up to 6.
-  WallCase a;
-  a.approach.resolution = 0x1p-52;
-  a.approach.wall = {
-      .axis = 0, .normal = 1, .place = 0, .amplitude = 1, .frequency = 3 / std::numbers::pi};
-  a.approach.turns = DoubleDouble(0.75);  // at its lowest
-  a.flight.u = {0, 1, 0};
-  a.flight.r = {-0.9, 0, 0};
-  a.flight.v = {1, 0, 0};
-  const WallContact found = first_wall_contact(a.approach, 0, 2);
-  const auto truth = sampled(a, 2, 4000);
-  ASSERT_TRUE(found.found && truth);
-  EXPECT_NEAR(found.elapsed, static_cast<double>(truth->time), 1e-14);
 }
 
 TEST(WallContact, TellsANeedleAcrossTheWall) {

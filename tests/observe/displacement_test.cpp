@@ -7,28 +7,10 @@
 namespace needlework::observe {
 namespace {
 
-const Vector displacement_box{5, 5, 5};
-
-// Needles along z that fly with (3, 0, 4) and rotate about y with 0.5, across the boundaries.
-State at(double time) {
-  State state = resting(4, displacement_box);
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Vector way{3 * time + double(i), 1, 4 * time};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double boxes = std::floor(way[axis] / 5);
-      state.image[i][axis] = static_cast<std::int32_t>(boxes);
-      state.position[i][axis] = way[axis] - 5 * boxes;
-    }
-    state.orientation[i] = {std::sin(0.5 * time), 0, std::cos(0.5 * time)};
-    state.velocity[i] = {3, 0, 4};
-  }
-  return state;
-}
-
 TEST(Displacement, OfFreeFlightIsBallistic) {
-  Observed observed(scene_with("displacement", 4, displacement_box));
-  observed.sample(at(0), 0.0);
-  Values values = observed.sample(at(7), 7.0);
+  Observed observed(scene_with("displacement", 4, flying_box));
+  observed.sample(flying(0), 0.0);
+  Values values = observed.sample(flying(7), 7.0);
   // From time 0, when the needles are along z, and from now.
   EXPECT_EQ(values["lag"][0], 7);
   EXPECT_NEAR(values["parallel"][0], 28 * 28, 1e-10);
@@ -43,10 +25,10 @@ TEST(Displacement, OfFreeFlightIsBallistic) {
 }
 
 TEST(Displacement, KeepsFewReferencesSpreadOverTheRun) {
-  Observed observed(scene_with("displacement", 4, displacement_box));
+  Observed observed(scene_with("displacement", 4, flying_box));
   std::set<double> seen;
   for (int sample = 0; sample < 1000; ++sample) {
-    std::vector<double> lags = observed.sample(at(sample), double(sample))["lag"];
+    std::vector<double> lags = observed.sample(flying(sample), double(sample))["lag"];
     std::erase_if(lags, [](double lag) { return std::isnan(lag); });
     ASSERT_EQ(lags.front(), sample) << "the start is always a reference";
     ASSERT_GE(lags.size(), std::min<std::size_t>(static_cast<std::size_t>(sample) + 1, 5));

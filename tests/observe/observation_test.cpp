@@ -9,6 +9,7 @@
 #include "src/observe/forecast.h"
 #include "src/observe/registry.h"
 #include "tests/observe/observed.h"
+#include "tests/support/scenes.h"
 
 namespace needlework::observe {
 namespace {
@@ -20,9 +21,7 @@ std::vector<std::string> all_names() {
 }
 
 Scene cooling_scene() {
-  Scene scene = test::scene_of(600, 8);
-  scene.collisions.epsilon = 0.8;
-  scene.collisions.tc_relative = 1e-3;
+  Scene scene = test::inelastic(test::scene_of(600, 8), 0.8);
   scene.output.observables = all_names();
   return scene;
 }
@@ -56,8 +55,7 @@ TEST(Observation, DoesNotDependOnThreadsAndStorage) {
   scene.engine.storage = "sorted";
   scene.engine.search = "capsules";
   for (const int threads : {1, 3}) {
-    scene.engine.threads = threads;
-    scene.engine.team = "all";
+    scene = test::on_threads(scene, threads);
     EXPECT_EQ(rows_of(scene, initial), expected) << threads << " threads";
   }
 }
@@ -72,8 +70,7 @@ TEST(Observation, OfWallsDoesNotDependOnThreads) {
   const auto expected = rows_of(scene, initial);
   for (const int threads : {1, 3}) {
     scene.engine.search = "capsules";
-    scene.engine.threads = threads;
-    scene.engine.team = "all";
+    scene = test::on_threads(scene, threads);
     EXPECT_EQ(rows_of(scene, initial), expected) << threads << " threads";
   }
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -34,6 +35,26 @@ inline State resting(std::size_t count, const Vector& box) {
   state.box = box;
   for (std::size_t i = 0; i < count; ++i) state.id[i] = static_cast<std::uint32_t>(i);
   std::fill(state.orientation.begin(), state.orientation.end(), Vector{0, 0, 1});
+  return state;
+}
+
+inline const Vector flying_box{5, 5, 5};
+
+/// Needles that fly with (3, 0, 4) across the boundaries, turn about y with 0.5 from z, and whose
+/// velocities and angular velocities fall by 1 % in each unit of time.
+inline State flying(double time) {
+  State state = resting(4, flying_box);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vector way{3 * time + double(i), 1, 4 * time};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double boxes = std::floor(way[axis] / 5);
+      state.image[i][axis] = static_cast<std::int32_t>(boxes);
+      state.position[i][axis] = way[axis] - 5 * boxes;
+    }
+    state.orientation[i] = {std::sin(0.5 * time), 0, std::cos(0.5 * time)};
+    state.velocity[i] = {3 * std::pow(0.99, time), 0, 4 * std::pow(0.99, time)};
+    state.angular_velocity[i] = {0, 0.5 * std::pow(0.99, time), 0};
+  }
   return state;
 }
 

@@ -8,6 +8,7 @@
 
 #include "tests/support/rods.h"
 #include "tests/support/runs.h"
+#include "tests/support/scenes.h"
 #include "tests/support/wall.h"
 
 namespace needlework::observe {
@@ -22,9 +23,7 @@ PressureSums sums_of(const Simulation& gas) {
 // By the trapezoidal rule in steps that are far shorter than a mean free time. T_tr falls to less
 // than a third.
 TEST(Pressure, OfACoolingGasIsTheMeanOverItsTime) {
-  Scene scene = test::rods_of(200, 0, 0.2, 3);
-  scene.collisions.epsilon = 0.7;
-  scene.collisions.tc_relative = 1e-3;
+  Scene scene = test::inelastic(test::rods_of(200, 0, 0.2, 3), 0.7);
   Simulation gas(scene);
   constexpr double step = 0.002;
   double integral = 0, before = gas.totals().t_tr;

@@ -11,26 +11,6 @@
 namespace needlework::observe {
 namespace {
 
-const Vector correlation_box{5, 5, 5};
-
-// Needles that fly with (3, 0, 4) across the boundaries, turn about y with 0.5 from z, and whose
-// velocities and angular velocities fall by 1 % in each unit of time.
-State flying(double time) {
-  State state = resting(4, correlation_box);
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Vector way{3 * time + double(i), 1, 4 * time};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double boxes = std::floor(way[axis] / 5);
-      state.image[i][axis] = static_cast<std::int32_t>(boxes);
-      state.position[i][axis] = way[axis] - 5 * boxes;
-    }
-    state.orientation[i] = {std::sin(0.5 * time), 0, std::cos(0.5 * time)};
-    state.velocity[i] = {3 * std::pow(0.99, time), 0, 4 * std::pow(0.99, time)};
-    state.angular_velocity[i] = {0, 0.5 * std::pow(0.99, time), 0};
-  }
-  return state;
-}
-
 std::vector<std::size_t> lags_up_to(std::size_t most) {
   std::vector<std::size_t> out;
   for (std::size_t lag = 0; lag <= 8; ++lag) out.push_back(lag);
@@ -40,7 +20,7 @@ std::vector<std::size_t> lags_up_to(std::size_t most) {
 }
 
 TEST(TimeCorrelation, OfKnownMotionIsKnownAtEachLag) {
-  Observed observed(scene_with("time_correlation", 4, correlation_box));
+  Observed observed(scene_with("time_correlation", 4, flying_box));
   const std::vector<std::size_t> lags = lags_up_to(8 << 13);
   std::map<std::size_t, int> seen;
   for (int now = 0; now <= 700; ++now) {
@@ -85,7 +65,7 @@ TEST(TimeCorrelation, OfKnownMotionIsKnownAtEachLag) {
 // Rows that a run gives whose observables have gone through an archive halfway, and others; and
 // what no run can have left is refused.
 TEST(TimeCorrelation, GoesOnFromAnArchive) {
-  const Scene scene = scene_with("time_correlation", 4, correlation_box);
+  const Scene scene = scene_with("time_correlation", 4, flying_box);
   const auto rows = [](Observation& observation, int from, int to) {
     std::vector<double> out;
     for (int now = from; now < to; ++now) {

@@ -10,6 +10,7 @@
 
 #include "needlework/theory.h"
 #include "tests/support/runs.h"
+#include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
 
 namespace needlework {
@@ -53,9 +54,7 @@ TEST(KickPower, IsExact) {
 
 // Whatever collisions take meanwhile, which is a share of its own in the budget of energy.
 TEST(KickPower, IsExactForInelasticNeedles_long) {
-  Scene scene = test::scene_of(400, 8, 4000);
-  scene.collisions.epsilon = 0.7;
-  scene.collisions.tc_relative = 1e-3;
+  Scene scene = test::inelastic(test::scene_of(400, 8, 4000), 0.7);
   scene.initial.t_tr = scene.initial.t_rot = 0.05;
   scene.driving.kicks = {.every = 0.05, .translational = 1.5, .rotational = 4};
   constexpr double time = 1;

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
@@ -18,8 +17,8 @@
 #include "needlework/error.h"
 #include "needlework/predict.h"
 #include "tests/support/by_build.h"
+#include "tests/support/family_name.h"
 #include "tests/support/oracle.h"
-#include "tests/support/pair_families.h"
 #include "tests/support/pairs_csv.h"
 
 namespace needlework::test {
@@ -140,10 +139,6 @@ struct Report {
   }
 };
 
-bool same_bits(double a, double b) {
-  return (std::isnan(a) && std::isnan(b)) || std::memcmp(&a, &b, sizeof a) == 0;
-}
-
 class PredictOracle : public testing::TestWithParam<PairFamily> {};
 
 // On one pair in `share` of those that are drawn at most.
@@ -196,60 +191,7 @@ TEST_P(PredictOracle, AgreesBackwardsInTime) {
   report.expect_clean();
 }
 
-TEST_P(PredictOracle, SwapsArmsWithNeedles) {
-  for (const NeedlePair& pair : draw_pairs(GetParam().name, symmetry_count, seed + 2)) {
-    const FirstContact one = engine(pair), two = engine(exchanged(pair));
-    EXPECT_TRUE(same_bits(one.time, two.time) && same_bits(one.arm_first, two.arm_second) &&
-                same_bits(one.arm_second, two.arm_first))
-        << csv_line(0, pair);
-    if (HasFailure()) break;
-  }
-}
-
-TEST_P(PredictOracle, ScalesByPowersOfTwo) {
-  for (const NeedlePair& pair : draw_pairs(GetParam().name, symmetry_count, seed + 3)) {
-    const FirstContact one = engine(pair), two = engine(slowed(pair, 60));
-    EXPECT_TRUE(same_bits(std::ldexp(one.time, 60), two.time) &&
-                same_bits(one.arm_first, two.arm_first) &&
-                same_bits(one.arm_second, two.arm_second))
-        << csv_line(0, pair);
-    if (HasFailure()) break;
-  }
-}
-
-std::string test_name(const testing::TestParamInfo<PairFamily>& info) {
-  std::string text(info.param.name);
-  std::replace(text.begin(), text.end(), '-', '_');
-  return text;
-}
-
-INSTANTIATE_TEST_SUITE_P(Families, PredictOracle, testing::ValuesIn(pair_families()), test_name);
-
-TEST(PredictOracleByHand, NeedlesInOnePlaneNeverMeet) {
-  NeedlePair pair;
-  pair.first = {{0.1, 0.2, 0}, {1, 0.5, 0}, {-0.3, 0.1, 0}, {0, 0, 1.5}};
-  pair.second = {{0, 0, 0}, {0.3, 1, 0}, {0.1, 0.7, 0}, {0, 0, -2}};
-  pair.horizon = 50;
-  EXPECT_EQ(engine(pair).time, std::numeric_limits<double>::infinity());
-  pair.just_collided = true;
-  EXPECT_EQ(engine(pair).time, std::numeric_limits<double>::infinity());
-}
-
-TEST(PredictOracleByHand, ParallelPassIsNoContact) {
-  NeedlePair pair;
-  pair.first = {{0, 0, 0.3}, {1, 0, 0}, {0, 0, 0}, {0, 0, 1}};
-  pair.second = {{0, 0, 0}, {0, 1, 0}, {0, 0, 0}, {0, 0, -0.5}};
-  pair.horizon = 50;
-  EXPECT_EQ(engine(pair).time, std::numeric_limits<double>::infinity());
-}
-
-TEST(PredictOracleByHand, NeedlesAtRestNeverMeet) {
-  NeedlePair pair;
-  pair.first = {{0.1, 0.05, 0.01}, {1, 0, 0}, {0.5, 1, 2}, {0, 0, 0}};
-  pair.second = {{0, 0, 0}, {0, 1, 0}, {0.5, 1, 2}, {0, 0, 0}};
-  pair.horizon = 1e9;
-  EXPECT_EQ(engine(pair).time, std::numeric_limits<double>::infinity());
-}
+INSTANTIATE_TEST_SUITE_P(Families, PredictOracle, testing::ValuesIn(pair_families()), family_name);
 
 TEST(PredictOracleByHand, SpinAboutTheOwnAxisIsNoRotation) {
   NeedlePair pair;

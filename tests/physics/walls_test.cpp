@@ -91,9 +91,9 @@ TEST(WallPressure, IsThatOfTheIdealGasOfNeedles_long) {
   }
 }
 
-// Of each two species, between walls that are nearer than two of their lengths; to this relative
-// standard error.
-void expect_rates_of_each_two_species(double time, double error) {
+// Of each two species, between walls that are nearer than two of their lengths.
+TEST(PairsBetweenWalls, CollideAtTheRatesOfEachTwoSpecies_long) {
+  constexpr double time = 320, error = 0.003;
   constexpr double side = 12, height = 1.3;
   Scene scene = between_walls(0, side, height, 1);
   scene.species = {{.name = "short", .count = 300, .length = 0.6, .mass = 0.5, .k = 4},
@@ -127,17 +127,11 @@ void expect_rates_of_each_two_species(double time, double error) {
   }
 }
 
-TEST(PairsBetweenWalls, CollideAtTheRatesOfEachTwoSpecies_long) {
-  expect_rates_of_each_two_species(40, 0.007);
-}
-
-TEST(PairsBetweenWalls, CollideAtTheseRatesToThousandths_long) {
-  expect_rates_of_each_two_species(320, 0.003);
-}
-
 // p(z) is exp(-m g z / T) min(1, 2 z / L), the force on the floor N m g. `error` is the relative
 // standard error of the number of needles that the floor keeps from turning freely.
-void expect_barometric_density(std::uint64_t count, double side, double error) {
+TEST(NeedlesOnAFloor, HaveTheBarometricDensity_long) {
+  constexpr std::uint64_t count = 3000;
+  const double side = 14 * std::sqrt(6.0), error = 0.003;
   constexpr double pull = 1;
   const auto all = static_cast<double>(count);
   Mean below, height, force;
@@ -191,12 +185,6 @@ void expect_barometric_density(std::uint64_t count, double side, double error) {
   EXPECT_LT(force.measured().error, 0.003);
 }
 
-TEST(NeedlesOnAFloor, HaveTheBarometricDensity_long) { expect_barometric_density(500, 14, 0.01); }
-
-TEST(NeedlesOnAFloor, HaveTheBarometricDensityToThousandths_long) {
-  expect_barometric_density(3000, 14 * std::sqrt(6.0), 0.003);
-}
-
 // Walls of two temperatures alike bring an inelastic-free gas to theirs.
 TEST(ThermalWalls, BringTheGasToTheirTemperature_long) {
   constexpr double wall = 2.5;
@@ -224,7 +212,8 @@ TEST(ThermalWalls, BringTheGasToTheirTemperature_long) {
 }
 
 // What the hot wall gives, the cold one takes; of walls of one temperature neither gives any.
-void expect_balance_of_heat(double time, double error) {
+TEST(ThermalWalls, CarryHeatFromTheHotOneToTheCold_long) {
+  constexpr double time = 500, error = 0.003;
   for (const double hot : {3.0, 1.0}) {
     Mean from_low, from_high, balance;  // power per needle
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
@@ -259,10 +248,6 @@ void expect_balance_of_heat(double time, double error) {
     }
   }
 }
-
-TEST(ThermalWalls, CarryHeatFromTheHotOneToTheCold_long) { expect_balance_of_heat(60, 0.02); }
-
-TEST(ThermalWalls, CarryHeatToThousandths_long) { expect_balance_of_heat(500, 0.003); }
 
 }  // namespace
 }  // namespace needlework

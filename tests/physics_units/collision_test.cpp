@@ -145,20 +145,6 @@ TEST_F(Collide, GivesTheImpulseOfTheDenseEquations) {
   });
 }
 
-TEST_F(Collide, ReversesNormalAndTangentialVelocitiesByTheirRestitution) {
-  for_each_encounter([](const Encounter& e, const Impact& impact) {
-    const Vector before = velocity_before(e), after = velocity_after(e, impact);
-    const double allowed = 4 * noise(e, impact) * (1 + e.k);
-    const Vector n = eigen(e.contact.normal);
-    EXPECT_NEAR(after.dot(n), -e.restitution.epsilon * before.dot(n), allowed);
-    // In directions of the plane, of the directors among them.
-    for (const Vec3d& u :
-         {e.contact.u_first, e.contact.u_second, cross(e.contact.normal, e.contact.u_first)}) {
-      EXPECT_NEAR(after.dot(eigen(u)), -e.restitution.beta * before.dot(eigen(u)), allowed);
-    }
-  });
-}
-
 TEST_F(Collide, ChangesTheEnergyByWhatItSays) {
   for_each_encounter([](const Encounter& e, const Impact& impact) {
     const double before = kinetic_energy(e, e.first.v, e.first.w, e.second.v, e.second.w);
@@ -175,6 +161,11 @@ TEST_F(Collide, ChangesTheEnergyByWhatItSays) {
     const double formula = -0.5 * (1 - epsilon * epsilon) * vn * vn / n.dot(m * n) -
                            0.5 * (1 - beta * beta) * vt.dot(m.ldlt().solve(vt));
     EXPECT_NEAR(impact.energy_change, formula, 1e-13 * (before + after));
+    Encounter elastic = e;
+    for (const double rough : {-1.0, 1.0}) {
+      elastic.restitution = {1, rough};
+      EXPECT_EQ(elastic.collide<false>().energy_change, 0);
+    }
   });
 }
 
@@ -203,20 +194,6 @@ TEST_F(Collide, LeavesAngularVelocitiesNormalToTheDirectors) {
     const double allowed = 4 * noise(e, impact) * (1 + e.k);
     EXPECT_NEAR(dot(impact.w_first, e.contact.u_first), 0, allowed);
     EXPECT_NEAR(dot(impact.w_second, e.contact.u_second), 0, allowed);
-  });
-}
-
-TEST_F(Collide, KeepsTheEnergyWhenElasticAndSmoothOrPerfectlyRough) {
-  for_each_encounter([](Encounter e, const Impact&) {
-    for (const double beta : {-1.0, 1.0}) {
-      e.restitution = {1, beta};
-      const Impact impact = e.collide<false>();
-      EXPECT_EQ(impact.energy_change, 0);
-      const double before = kinetic_energy(e, e.first.v, e.first.w, e.second.v, e.second.w);
-      const double after =
-          kinetic_energy(e, impact.v_first, impact.w_first, impact.v_second, impact.w_second);
-      EXPECT_NEAR(after / before, 1, 1e-13);
-    }
   });
 }
 
@@ -336,14 +313,6 @@ Encounter crossed(double arm_first, double arm_second) {
   return e;
 }
 
-TEST(CollideByHand, CentresThatMeetHeadOnExchangeTheirVelocities) {
-  const Impact impact = crossed(0, 0).collide<true>();
-  EXPECT_EQ(impact.normal_velocity, -3);
-  EXPECT_EQ(impact.v_first, Vec3d());
-  EXPECT_EQ(impact.v_second, (Vec3d{0, 0, -3}));
-  EXPECT_EQ(impact.w_first, Vec3d());
-}
-
 // I = 1/4: 1/M = 1 / (2 + 4/4) and the impulse is 2 times 3 / 3.
 TEST(CollideByHand, ATipSetsItsNeedleSpinning) {
   const Impact impact = crossed(0.5, 0).collide<true>();
@@ -352,16 +321,6 @@ TEST(CollideByHand, ATipSetsItsNeedleSpinning) {
   EXPECT_NEAR(impact.v_second.z, -2, 1e-15);
   // s12 / I = 2, u1 x dp = (1, 0, 0) x (0, 0, 2) = (0, -2, 0).
   EXPECT_NEAR(impact.w_first.y, -4, 1e-14);
-}
-
-// Perfectly inelastic: both contact points move on together, and half of the energy is left.
-TEST(CollideByHand, WithoutReboundTheContactPointsMoveOnTogether) {
-  Encounter e = crossed(0, 0);
-  e.restitution.epsilon = 0;
-  const Impact impact = e.collide<true>();
-  EXPECT_EQ(impact.v_first, (Vec3d{0, 0, -1.5}));
-  EXPECT_EQ(impact.v_second, (Vec3d{0, 0, -1.5}));
-  EXPECT_EQ(impact.energy_change, -2.25);
 }
 
 // Along the first director the first needle does not turn: M_11 = 2 + (s21^2/I).

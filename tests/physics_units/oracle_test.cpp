@@ -128,16 +128,6 @@ TEST(Oracle, NeedlesInOnePlaneNeverMeet) {
   EXPECT_FALSE(ask(pair).contact);
 }
 
-TEST(Oracle, SpinAboutTheOwnAxisIsNoRotation) {
-  NeedlePair pair = crossing(0.25, -0.125, 0.5, 0.75, 2);
-  const OracleAnswer still = ask(pair);
-  pair.first.angular_velocity = {50, 0, 0};
-  pair.second.angular_velocity = {0, -7, 0};
-  const OracleAnswer spinning = ask(pair);
-  EXPECT_EQ(spinning.time, still.time);
-  EXPECT_EQ(spinning.arm_first, still.arm_first);
-}
-
 TEST(Oracle, FindsTheSecondOfTwoCloseRoots) {
   for (int power = 1; power < 24; ++power) {
     const double e = std::ldexp(1, -power);
@@ -268,20 +258,6 @@ TEST(Oracle, DoublesLeaveArmsNextToAParallelRootToMoreDigits) {
   EXPECT_GT(answer.digits, std::numeric_limits<double>::digits10);
 }
 
-TEST(Oracle, BuiltContactsAreFoundOrComeLater) {
-  for (const PairFamily& family : pair_families()) {
-    if (family.name == "grazing") continue;  // built to second order only
-    for (const NeedlePair& pair : draw_pairs(family.name, 200, 12)) {
-      if (!pair.contact_time || pair.just_collided) continue;
-      const OracleAnswer answer = ask(pair);
-      if (answer.decision_margin < 8) continue;
-      const bool cut = pair.horizon < *pair.contact_time;
-      const double late = *pair.contact_time * (1 + 1e-12 + 8 * answer.time_limit);
-      EXPECT_TRUE(cut || answer.time <= late) << csv_line(0, pair);
-    }
-  }
-}
-
 struct Sample {
   double f, arm_first, arm_second;
 };
@@ -401,28 +377,6 @@ TEST(Oracle, CrossingsOfFreePassesHaveTheExactRate) {
   const double error = std::sqrt((squares / passages - rate * rate) / passages);
   EXPECT_NEAR(rate, expected, 4 * error);
   EXPECT_LT(error, 0.02 * expected);
-}
-
-TEST(Oracle, SymmetriesHold) {
-  for (const PairFamily& family : pair_families()) {
-    for (const NeedlePair& pair : draw_pairs(family.name, 100, 15)) {
-      const OracleAnswer answer = ask(pair);
-      if (answer.decision_margin < 8) continue;
-      const OracleAnswer swapped = ask(exchanged(pair));
-      const OracleAnswer reflected = ask(mirrored(pair));
-      const OracleAnswer slow = ask(slowed(pair, 60));
-      EXPECT_EQ(answer.contact, swapped.contact);
-      EXPECT_EQ(answer.contact, reflected.contact);
-      EXPECT_EQ(answer.contact, slow.contact);
-      if (!answer.contact) continue;
-      EXPECT_DOUBLE_EQ(answer.time, swapped.time);
-      EXPECT_DOUBLE_EQ(answer.time, reflected.time);
-      EXPECT_EQ(std::ldexp(answer.time, 60), slow.time);
-      const double digits = 1e-15 + (family.made_of_limits ? 1e-8 * answer.arm_limit : 0);
-      EXPECT_NEAR(answer.arm_first, swapped.arm_second, digits);
-      EXPECT_NEAR(answer.arm_first, reflected.arm_first, digits);
-    }
-  }
 }
 
 }  // namespace

@@ -62,28 +62,6 @@ TEST(PairFamilies, GoThroughACsvFileUnchanged) {
   }
 }
 
-TEST(PairFamilies, ThermalPairsEnterTheSphereAtTemperatureOne) {
-  const int count = 20000;
-  double normal = 0, tangential = 0, spin = 0;
-  for (const NeedlePair& pair : draw_pairs("thermal-k6", count, 5)) {
-    const Vec<double> r = pair.first.position - pair.second.position;
-    const Vec<double> v = pair.first.velocity - pair.second.velocity;
-    const double rv = dot(r, v), vv = dot(v, v);
-    const double entry = (-rv - std::sqrt(rv * rv - vv * (dot(r, r) - 1))) / vv;
-    EXPECT_GT(entry, -1e-9);
-    EXPECT_LT(entry, pair.horizon);
-    const double inwards = -dot(r + entry * v, v);
-    normal += inwards * inwards / count;
-    tangential += (vv - inwards * inwards) / count;
-    spin += dot(pair.first.angular_velocity, pair.first.angular_velocity) / count;
-  }
-  // Rayleigh of variance 2 along the normal, two normal components of variance 2, 2 k for each
-  // of two spins; each sum has a relative standard error of 1 / sqrt(count).
-  EXPECT_NEAR(normal, 4, 4 * 4 / std::sqrt(count));
-  EXPECT_NEAR(tangential, 4, 4 * 4 / std::sqrt(count));
-  EXPECT_NEAR(spin, 24, 4 * 24 / std::sqrt(count));
-}
-
 TEST(PairFamilies, HardPairsAreHard) {
   const auto share = [](const char* family, auto holds) {
     int found = 0, contacts = 0;
@@ -109,17 +87,6 @@ TEST(PairFamilies, HardPairsAreHard) {
                            0.499;
                   }),
             0.5);
-}
-
-TEST(PairFamilies, BackwardsMotionMeetsWhereForwardMotionDoes) {
-  for (const NeedlePair& pair : draw_pairs("still", 200, 7)) {
-    const OracleAnswer forth = first_contact(pair.first, pair.second, pair.horizon, false);
-    const NeedlePair other = reversed(pair);
-    const OracleAnswer back = first_contact(other.first, other.second, other.horizon, false);
-    EXPECT_EQ(forth.contact, back.contact);
-    if (!forth.contact) continue;
-    EXPECT_LE(forth.time, pair.horizon - back.time + 1e-9 * pair.horizon);
-  }
 }
 
 }  // namespace

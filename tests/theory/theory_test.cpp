@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "needlework/diffusion.h"
 #include "src/theory/graded_rule.h"
 #include "tests/support/message_of.h"
 
@@ -346,6 +347,11 @@ TEST(Theory, RejectsNumbersOutOfRange) {
     EXPECT_THROW(cooling_rates({}, {1.0, bad}), std::invalid_argument) << bad;
     EXPECT_THROW(equilibrium_rate(10.0, 1.0, bad, 6.0), std::invalid_argument) << bad;
   }
+  EXPECT_THROW(uncorrelated_transport(-1, 1, 6), std::invalid_argument);
+  EXPECT_THROW(uncorrelated_transport(1, 0, 6), std::invalid_argument);
+  EXPECT_THROW(uncorrelated_transport(1, 1, 0), std::invalid_argument);
+  EXPECT_EQ(uncorrelated_transport(0, 1, 6).velocity_decay, 0);
+  EXPECT_TRUE(std::isinf(uncorrelated_transport(0, 1, 6).diffusion));
   EXPECT_THROW(equilibrium_rate(1.0, 1.0, 2.5, 6.0), std::invalid_argument);
   EXPECT_THROW(equilibrium_rate(10.0, 1.0, 25.0, 6.0, 4), std::invalid_argument);
 }

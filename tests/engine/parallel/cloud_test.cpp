@@ -16,6 +16,7 @@
 #include "src/engine/make_loop.h"
 #include "tests/support/parallel_loops.h"
 #include "tests/support/same_run.h"
+#include "tests/support/scenes.h"
 
 namespace needlework {
 namespace {
@@ -42,8 +43,7 @@ TEST(Cloud, IsFollowedAsItSpreads_long) {
   scene.engine.search = "auto";
   for (const int threads : {1, 2, 3}) {
     SCOPED_TRACE(threads);
-    scene.engine.threads = threads;
-    scene.engine.team = "all";
+    scene = test::on_threads(scene, threads);
     Simulation simulation(scene, state);
     EXPECT_EQ(simulation.search(), "capsules");
     EXPECT_EQ(simulation.prepare(until), std::nullopt);
@@ -88,9 +88,7 @@ TEST(Cloud, IsSearchedAsAskedFor) {
 
 // A run can be continued by another loop at any time between two events.
 TEST(Loops, MayFollowEachOther) {
-  Scene scene = test::scene_of(600, 7, 8);
-  scene.collisions.epsilon = 0.9;
-  scene.collisions.tc_relative = 1e-3;
+  Scene scene = test::inelastic(test::scene_of(600, 7, 8), 0.9);
   scene.collisions.beta = 0.5;
   const double end = 40 / thin;
   Simulation truth(scene);

@@ -14,6 +14,7 @@
 #include "kernels/isa.h"
 #include "needlework/error.h"
 #include "tests/support/same_run.h"
+#include "tests/support/scenes.h"
 
 namespace needlework {
 namespace {
@@ -22,12 +23,9 @@ constexpr int steps = 8;
 const double collisions_per_needle = 8 / std::sqrt(test::thin);
 
 Scene scene_on(kernels::Isa isa, int threads, std::uint64_t seed) {
-  Scene scene = test::scene_of(1000, 8, seed);
-  scene.collisions.epsilon = 0.9;
-  scene.collisions.tc_relative = 1e-3;
+  Scene scene = test::inelastic(test::scene_of(1000, 8, seed), 0.9);
   scene.engine.isa = kernels::name_of(isa);
-  scene.engine.threads = threads;
-  scene.engine.team = "all";
+  scene = test::on_threads(scene, threads);
   return scene;
 }
 
@@ -72,8 +70,7 @@ TEST(HostThreads, RunSimulationsOnDifferentInstructionSets_long) {
 // As Python's multiprocessing makes it: the child has none of OpenMP's threads.
 TEST(HostProcess, MayForkAndGoOnInTheChild) {
   Scene scene = test::scene_of(6000, 14, 1);
-  scene.engine.threads = 2;
-  scene.engine.team = "all";
+  scene = test::on_threads(scene, 2);
   Simulation simulation(scene);
   Scene::Until until;
   until.time = simulation.mean_free_time() / std::sqrt(test::thin);
@@ -166,8 +163,7 @@ TEST_F(HostWithOpenMP, RunsASimulationInEachThreadOfARegion) {
   omp_set_max_active_levels(2);
   for (const int threads : {1, 2}) {
     Scene scene = scene_;
-    scene.engine.threads = threads;
-    scene.engine.team = "all";
+    scene = test::on_threads(scene, threads);
     std::array<std::string, 3> hashes;
 #pragma omp parallel num_threads(3)
     {

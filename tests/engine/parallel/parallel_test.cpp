@@ -11,6 +11,7 @@
 #include "src/engine/initial_gas.h"
 #include "tests/support/parallel_loops.h"
 #include "tests/support/same_run.h"
+#include "tests/support/scenes.h"
 
 namespace needlework {
 namespace {
@@ -47,8 +48,7 @@ TEST_P(ParallelRun, IsThatOfOneThread) {
        {std::pair("linked-cells", 2), {"linked-cells", 8}, {"capsules", 3}, {"capsules", 4}}) {
     SCOPED_TRACE(std::string(search) + " on " + std::to_string(threads) + " threads");
     scene.engine.search = search;
-    scene.engine.threads = threads;
-    scene.engine.team = "all";
+    scene = test::on_threads(scene, threads);
     ASSERT_NO_FATAL_FAILURE(test::expect_same(truth, test::record(scene, count)));
   }
 }
@@ -83,8 +83,7 @@ TEST(Parallel, IsTheSameEveryTime_long) {
 #endif
   for (int n = 0; n < repeats; ++n) {
     for (const int threads : {3, 8}) {
-      scene.engine.threads = threads;
-      scene.engine.team = "all";
+      scene = test::on_threads(scene, threads);
       ASSERT_EQ(test::record(scene, 700).hash, truth) << threads << " threads, run " << n;
     }
   }
@@ -96,8 +95,7 @@ TEST(Parallel, UsesAllThreadsAfterALongStretchOnOne) {
   Scene scene = scene_of({"", 1000, {11, 11, 11}, 0.5, -1, 1e-3, 6, 0});
   const int steps = thin > 1 ? 20 : 100;
   const auto run = [&](int threads) {
-    scene.engine.threads = threads;
-    scene.engine.team = "all";
+    scene = test::on_threads(scene, threads);
     auto simulation = std::make_unique<Simulation>(scene);
     // Each step is too short for a phase.
     for (int n = 0; n <= steps; ++n) simulation->advance(test::until_collisions(0.2 * n));
@@ -112,8 +110,7 @@ TEST(Parallel, UsesAllThreadsAfterALongStretchOnOne) {
 
 TEST(Parallel, UsesItsThreads) {
   Scene scene = scene_of({"", 2000, {14, 14, 14}, 1, -1, 0, 6, 0});
-  scene.engine.threads = 2;
-  scene.engine.team = "all";
+  scene = test::on_threads(scene, 2);
   Simulation simulation(scene);
   Scene::Until until;
   until.collisions_per_needle = 24;
@@ -129,8 +126,7 @@ TEST(Parallel, UsesItsThreads) {
 TEST(Parallel, StopsWhereOneThreadStops_long) {
   Scene scene = scene_of({"", 1000, {8, 8, 8}, 0.8, -1, 1e-3, 6, 0});
   const auto stops = [&](int threads) {
-    scene.engine.threads = threads;
-    scene.engine.team = "all";
+    scene = test::on_threads(scene, threads);
     Simulation simulation(scene);
     std::vector<std::tuple<Stop, double, std::uint64_t, std::string>> out;
     std::vector<State> states;
@@ -161,8 +157,7 @@ TEST(Parallel, StopsWhereOneThreadStops_long) {
 // An end by energy cannot be foreseen: the phase in which it lies is rolled back.
 TEST(Parallel, RollsBackWhatLiesBeyondTheEnd) {
   Scene scene = scene_of({"", 1000, {8, 8, 8}, 0.8, -1, 1e-3, 6, 0});
-  scene.engine.threads = 2;
-  scene.engine.team = "all";
+  scene = test::on_threads(scene, 2);
   Simulation simulation(scene);
   EXPECT_EQ(simulation.advance({.energy_ratio = 0.5}), Stop::energy);
   EXPECT_GE(simulation.counters().redone, 1u);
@@ -176,8 +171,7 @@ TEST(Parallel, EndsAtTheNextCollision) {
   for (int n = 1; n <= 300; n += 3) {
     const double mean = std::nextafter(n / 500.0, 1.0);
     slightly_above += mean * 500 > n;
-    scene.engine.threads = 2;
-    scene.engine.team = "all";
+    scene = test::on_threads(scene, 2);
     Simulation simulation(scene);
     ASSERT_EQ(simulation.advance({.collisions_per_needle = mean}), Stop::collisions);
     ASSERT_EQ(simulation.totals().collisions, static_cast<std::uint64_t>(std::ceil(mean * 500)));
@@ -192,8 +186,7 @@ TEST(Parallel, RollsBackAPhaseOnlyOnce_long) {
   Scene scene = scene_of({"", 2000, {7, 7, 7}, 0.6, -1, 1e-3, 6, 0});
   scene.initial.t_rot = 0;
   const auto run = [&](int threads, double wall) {
-    scene.engine.threads = threads;
-    scene.engine.team = "all";
+    scene = test::on_threads(scene, threads);
     auto simulation = std::make_unique<Simulation>(scene);
     Scene::Until until;
     until.energy_ratio = thin > 1 ? 0.7 : 0.3;
@@ -241,8 +234,7 @@ TEST(Parallel, RollsBackPhasesOfRareGasesCorrectly) {
 // to check which needles may have met.
 TEST(Parallel, StaysTogetherInTimeInALongBox) {
   Scene scene = scene_of({"", 2000, {2000, 2.3, 2.3}, 1, -1, 0, 6, 0});
-  scene.engine.threads = 3;
-  scene.engine.team = "all";
+  scene = test::on_threads(scene, 3);
   Simulation simulation(scene);
   EXPECT_EQ(simulation.advance(test::until_collisions(10 / thin)), Stop::collisions);
   const Counters& counters = simulation.counters();
@@ -273,8 +265,7 @@ TEST(Parallel, HasTheSameTrajectoryForFewNeedles_long) {
 
 TEST(Parallel, ReportsThatOpenMPGivesFewerThreads) {
   Scene scene = scene_of({"", 1000, {8, 8, 8}, 1, -1, 0, 6, 0});
-  scene.engine.threads = 2;
-  scene.engine.team = "all";
+  scene = test::on_threads(scene, 2);
   const int levels = omp_get_max_active_levels();
   omp_set_max_active_levels(0);
   std::string message;
@@ -290,8 +281,7 @@ TEST(Parallel, ReportsThatOpenMPGivesFewerThreads) {
 TEST(Parallel, FailsWhereOneThreadFails) {
   Scene scene = scene_of({"", 400, {5, 5, 5}, 0.2, -1, 0, 6, 0});
   const auto failure = [&](int threads) {
-    scene.engine.threads = threads;
-    scene.engine.team = "all";
+    scene = test::on_threads(scene, threads);
     Simulation simulation(scene);
     std::string message;
     try {
@@ -309,8 +299,7 @@ TEST(Parallel, FailsWhereOneThreadFails) {
 
 TEST(Parallel, CanBeInterrupted) {
   Scene scene = scene_of({"", 1000, {8, 8, 8}, 1, -1, 0, 6, 0});
-  scene.engine.threads = 2;
-  scene.engine.team = "all";
+  scene = test::on_threads(scene, 2);
   Simulation simulation(scene);
   simulation.on_collision([&](const Collision&) { simulation.interrupt(); });
   EXPECT_EQ(simulation.advance({.collisions_per_needle = 1e6}), Stop::interrupted);
@@ -337,8 +326,7 @@ TEST(Parallel, IsInterruptedAfterAllItsRecords) {
 
 TEST(Parallel, RefusesSearchesAndCalendarsOfOneThread) {
   Scene scene = scene_of({"", 100, {8, 8, 8}, 1, -1, 0, 6, 0});
-  scene.engine.threads = 2;
-  scene.engine.team = "all";
+  scene = test::on_threads(scene, 2);
   scene.engine.search = "all-pairs";
   EXPECT_THROW(Simulation{scene}, InputError);
   scene.engine.search = "auto";
