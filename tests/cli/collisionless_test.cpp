@@ -44,17 +44,14 @@ TEST_F(NeverColliding, StatesAreNamedAndNeedALimitOnTime_long) {
     for (const std::string command : {"check", "run", "audit"}) {
       const Outcome refused = run(command + " gas.toml");
       EXPECT_EQ(refused.exit_code, 3) << command;
-      EXPECT_NE(refused.err.find(std::string("nothing can ever happen, as ") + why),
-                std::string::npos)
-          << refused.err;
+      EXPECT_TRUE(contains(refused.err, std::string("nothing can ever happen, as ") + why));
     }
     const std::string with_time =
         " gas.toml --set until.collisions_per_needle=none --set until.time=0.1";
     for (const std::string command : {"check", "run --quiet", "audit --quiet"}) {
       const Outcome warned = run(command + with_time);
       EXPECT_EQ(warned.exit_code, 0) << warned.err;
-      EXPECT_NE(warned.err.find(std::string(why) + ": nothing collides"), std::string::npos)
-          << warned.err;
+      EXPECT_TRUE(contains(warned.err, std::string(why) + ": nothing collides"));
     }
   }
 }

@@ -90,7 +90,7 @@ std::string refusal_over_a_pipe(const std::string& text) {
 void expect_place_and_message(const std::string& found, const std::string& begin,
                               const std::string& key, const InvalidScene& scene) {
   EXPECT_TRUE(found.starts_with(begin)) << found << "\nof " << scene.rule;
-  EXPECT_NE(found.find(key.empty() ? begin : key), std::string::npos) << found;
+  EXPECT_TRUE(contains(found, key.empty() ? begin : key));
   EXPECT_TRUE(found.ends_with(": " + scene.message))
       << found << "\nexpected " << scene.message << "\nof " << scene.rule;
 }

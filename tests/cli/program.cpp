@@ -28,13 +28,17 @@ testing::AssertionResult Outcome::complains(const std::string& part) const {
   return testing::AssertionFailure() << "expected one line with \"" << part << "\", got:\n" << err;
 }
 
+testing::AssertionResult Outcome::fails(int code, const std::string& part) const {
+  const bool is_error = code == 2 || code == 3 || code == 5;
+  if (exit_code == code && (out.empty() || !is_error)) return complains(part);
+  return testing::AssertionFailure() << "exit code " << exit_code << ": expected " << code << '\n'
+                                     << err << out;
+}
+
 ProgramTest::ProgramTest() {
   write(small, R"(title = "Small gas"
-[needles]
-count = 50
-box = 5
-[until]
-collisions_per_needle = 10
+needles = { count = 50, box = 5 }
+until.collisions_per_needle = 10
 )");
 }
 
