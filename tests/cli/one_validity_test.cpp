@@ -1,6 +1,7 @@
 // A scene that is not valid is refused in the same words by every way in: file, --set, C, a pipe
 // and a Scene made in code; tests/python/test_errors.py reads the same table for Python.
 #include <fstream>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -25,14 +26,30 @@ struct InvalidScene {
   bool front_ends;  // whether those do that do not run it to its end
 };
 
+// What an entry does not say: its base is the plain one, its key and its text follow from what is
+// set, which stands above the base, or in the last entry of it.
 std::vector<InvalidScene> invalid_scenes() {
   std::ifstream file(NEEDLEWORK_SOURCE "/tests/scene/invalid_scenes.json");
   std::vector<InvalidScene> out;
   for (const Json& each : Json::parse(file)) {
-    const std::string set = each["set"].is_null() ? "" : each["set"].get<std::string>();
-    out.push_back({each["rule"], each["base"], each["text"], set, each.value("set_says", set),
-                   each["key"], each.value("file_key", each["key"].get<std::string>()),
-                   each["message"], each.value("engine", true), each.value("front_ends", true)});
+    const auto say = [&](const char* name, const std::string& otherwise) {
+      return each.value(name, otherwise);
+    };
+    const std::string base = say("base", "needles = { count = 10, box = 12 }\nuntil.time = 5\n");
+    const std::string set = say("set", "");
+    const std::size_t equals = std::min(set.find('='), set.size());
+    std::string key = set.substr(0, equals), text;
+    if (std::regex entry("((?:species|pairs|walls)\\.)[^.]*\\.(.*)");
+        std::regex_match(key, entry)) {
+      text = base + std::regex_replace(key, entry, "$2") + " = " + set.substr(equals + 1) + "\n";
+      key = std::regex_replace(key, entry, "$1$2");
+    } else if (!set.empty()) {
+      text = key + " = " + set.substr(equals + 1) + "\n" + base;
+    }
+    key = say("key", key);
+    out.push_back({say("rule", "range"), base, say("text", text), set, say("set_says", set), key,
+                   say("file_key", key), each["message"], each.value("engine", true),
+                   each.value("front_ends", true)});
   }
   return out;
 }
