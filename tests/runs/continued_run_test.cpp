@@ -10,6 +10,7 @@
 #include "src/runs/prepared_run.h"
 #include "src/trajectory/saved_totals.h"
 #include "tests/runs/silent.h"
+#include "tests/support/contains.h"
 #include "tests/support/runs.h"
 #include "tests/support/saved_gas.h"
 #include "tests/support/temporary_folder.h"
@@ -69,7 +70,7 @@ TEST_F(ContinuedRun, HasTheLastSampleOfARunThatHasBegun) {
   const auto at = saved.observation.find(one);
   ASSERT_NE(at, std::string::npos);
   saved.observation.replace(at, one.size(), none);
-  EXPECT_NE(complaint_about(saved).find("its parts do not belong together"), std::string::npos);
+  EXPECT_TRUE(test::contains(complaint_about(saved), "its parts do not belong together"));
 }
 
 // A replay shows nobody the course, and a function that is called for each collision costs time.

@@ -13,6 +13,7 @@
 #include "needlework/parse.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/state_file.h"
+#include "tests/support/contains.h"
 #include "tests/support/runs.h"
 #include "tests/support/temporary_folder.h"
 
@@ -103,8 +104,7 @@ TEST(LoadedScene, WarnsOfAFileThatDoesNotSayItsBodies) {
   const std::string text = "initial.file = \"" + file + "\"\nuntil.time = 1\n";
   const LoadedScene loaded = complete_scene(parse_scene(text, "s.toml"));
   const std::string warning = warning_of_unknown_bodies(loaded);
-  EXPECT_NE(warning.find(": says no length, no diameter, no k of its bodies"), warning.npos)
-      << warning;
+  EXPECT_TRUE(test::contains(warning, ": says no length, no diameter, no k of its bodies"));
   // What was assumed may be said otherwise.
   const Scene other = complete_scene(parse_scene(text + "needles.k = 2", "s.toml")).scene;
   EXPECT_EQ(other.composition()[0].k, 2);
