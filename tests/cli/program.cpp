@@ -5,20 +5,13 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
+
+#include "tests/support/whole_file.h"
 
 namespace needlework {
-namespace {
 
 namespace fs = std::filesystem;
-
-std::string contents(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-}  // namespace
+using test::bytes_of;
 
 testing::AssertionResult Outcome::complains(const std::string& part) const {
   const bool one_line = std::count(err.begin(), err.end(), '\n') == 1 && err.back() == '\n';
@@ -68,8 +61,8 @@ Outcome ProgramTest::shell(const std::string& command, const std::string& out) c
       std::system(("cd '" + folder_.string() + "' && " + command + redirections).c_str());
   Outcome outcome;
   if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
-  if (out.empty()) outcome.out = contents(out_path);
-  outcome.err = contents(streams / "err");
+  if (out.empty()) outcome.out = bytes_of(out_path);
+  outcome.err = bytes_of(streams / "err");
   return outcome;
 }
 
@@ -90,7 +83,7 @@ void ProgramTest::write(const std::string& name, const std::string& text) const 
   std::ofstream(folder_ / name, std::ios::binary) << text;
 }
 
-std::string ProgramTest::read(const std::string& name) const { return contents(folder_ / name); }
+std::string ProgramTest::read(const std::string& name) const { return bytes_of(folder_ / name); }
 
 bool ProgramTest::exists(const std::string& name) const { return fs::exists(folder_ / name); }
 

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "tests/io/support.h"
+#include "tests/support/contains.h"
 
 namespace needlework::io {
 namespace {
@@ -49,7 +50,7 @@ TEST_F(Crash, FlushedFramesSurviveKill) {
   ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
   expect_same(make_frame(100, 4), read_last_frame(path));
   const std::string text = describe(path);
-  EXPECT_NE(text.find("100 particles, 5 frames"), std::string::npos) << text;
+  EXPECT_TRUE(test::contains(text, "100 particles, 5 frames"));
 }
 
 // The last frame that the child process reported as flushed before it was killed.

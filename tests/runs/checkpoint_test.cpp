@@ -13,6 +13,7 @@
 #include "tests/support/contains.h"
 #include "tests/support/runs.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/whole_file.h"
 
 namespace needlework::runs {
 namespace {
@@ -54,10 +55,7 @@ class CheckpointFile : public testing::Test {
     }
     return "";
   }
-  std::string bytes() const {
-    std::ifstream in(files.newest(), std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string bytes() const { return test::bytes_of(files.newest()); }
   static std::string mark_of(const std::string& bytes) { return bytes.substr(0, bytes.find('\n')); }
   void put(const std::string& bytes) const {
     std::ofstream(files.newest(), std::ios::binary) << bytes;
