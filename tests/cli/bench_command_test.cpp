@@ -18,8 +18,17 @@ using nlohmann::json;
 constexpr const char* baseline_name = "s/linked-lists/indexed-heap/standard/scalar/threads:1";
 constexpr const char* case_name = "s/auto/auto/standard/avx512/threads:1";
 
+constexpr const char* own_scene =
+    "needles = { count = 100, box = 5 }\ncollisions = { epsilon = 0.9, tc_relative = 1e-2 }\n";
+
 class BenchCommand : public ProgramTest {
  protected:
+  BenchCommand() { write("own.toml", own_scene); }
+  // The cases of a scene, each measured once and for a moment.
+  json cases_of(const std::string& arguments) const {
+    return json_of("bench --repetitions 1 --min-time 0 --json --scene " + arguments)["cases"];
+  }
+
   static json case_of(const std::string& name, bool baseline, const std::vector<double>& us) {
     return {{"name", name}, {"baseline", baseline}, {"us_per_collision", us}};
   }
@@ -97,11 +106,7 @@ TEST_F(BenchCommand, PrintsATableAndKeepsItsResults) {
                   .fails(5, "--json kept.json: exists already: expected a new file, or --force"));
 }
 
-constexpr const char* own_scene =
-    "needles = { count = 100, box = 5 }\ncollisions = { epsilon = 0.9, tc_relative = 1e-2 }\n";
-
 TEST_F(BenchCommand, MeasuresASceneOfTheUserWithTheStrategiesAskedFor) {
-  write("own.toml", own_scene);
   const json object = json_of(
       "bench --scene own.toml --set needles.count=120 --searches linked-cells,all-pairs "
       "--queues bucket,lazy-heap,bucket --isa scalar --repetitions 6 --min-time 0 --json");
@@ -131,9 +136,7 @@ TEST_F(BenchCommand, MeasuresASceneOfTheUserWithTheStrategiesAskedFor) {
 }
 
 TEST_F(BenchCommand, ComparesSearchesWhereNothingIsSaid) {
-  write("own.toml", own_scene);
-  const json cases =
-      run("bench --scene own.toml --repetitions 1 --min-time 0 --json").json()["cases"];
+  const json cases = cases_of("own.toml");
   ASSERT_EQ(cases.size(), 3u);
   EXPECT_EQ(cases[1]["search"], "linked-cells");
   EXPECT_EQ(cases[2]["search"], "capsules");
@@ -141,26 +144,20 @@ TEST_F(BenchCommand, ComparesSearchesWhereNothingIsSaid) {
 }
 
 TEST_F(BenchCommand, ComparesLevelsOfAccuracyAndSizes) {
-  write("own.toml", own_scene);
-  const json object = json_of(
-      "bench --scene own.toml --set engine.search='\"capsules\"' --accuracy fast,standard,rigorous "
-      "--capsule-radii 0.1,0.2 --repetitions 1 --min-time 0 --json");
-  ASSERT_EQ(object["cases"].size(), 7u);
+  const json cases = cases_of(
+      "own.toml --set engine.search='\"capsules\"' --accuracy fast,standard,rigorous "
+      "--capsule-radii 0.1,0.2");
+  ASSERT_EQ(cases.size(), 7u);
   const char* levels[] = {"fast", "standard", "rigorous"};
   for (std::size_t n = 1; n < 7; ++n) {
-    const json& one = object["cases"][n];
+    const json& one = cases[n];
     EXPECT_EQ(one["accuracy"], levels[(n - 1) / 2]);
     EXPECT_EQ(one["capsule_radius"], n % 2 ? 0.1 : 0.2);
   }
-  const json sides = json_of(
-      "bench --scene own.toml --searches linked-cells --cell-sides 0.5 --repetitions 1 --min-time "
-      "0 "
-      "--json");
-  EXPECT_EQ(sides["cases"][1]["cell_side"], 0.5);
+  EXPECT_EQ(cases_of("own.toml --searches linked-cells --cell-sides 0.5")[1]["cell_side"], 0.5);
 }
 
 TEST_F(BenchCommand, ComparesOtherValuesOfAnyKey) {
-  write("own.toml", own_scene);
   const Outcome outcome =
       run("bench --scene own.toml --vary collisions.epsilon=0.5 --vary needles.count=50 "
           "--repetitions 1 --min-time 0 --json kept.json --csv kept.csv");
@@ -174,18 +171,14 @@ TEST_F(BenchCommand, ComparesOtherValuesOfAnyKey) {
   // A value with the sign that separates the parts of a name.
   ASSERT_EQ(run("run small.toml --quiet --out start.h5").exit_code, 0);
   write("state.toml", "");
-  const json state = json_of(
-      "bench --scene state.toml --set initial.file='\"start.h5\"' --vary "
-      "initial.file='\"" +
-      path("start.h5") +
-      "\"' --repetitions 1 "
-      "--min-time 0 --json");
-  ASSERT_EQ(state["cases"].size(), 2u);
-  EXPECT_EQ(state["cases"][1]["setting"], "initial.file=\"" + path("start.h5") + "\"");
+  const json state =
+      cases_of("state.toml --set initial.file='\"start.h5\"' --vary initial.file='\"" +
+               path("start.h5") + "\"'");
+  ASSERT_EQ(state.size(), 2u);
+  EXPECT_EQ(state[1]["setting"], "initial.file=\"" + path("start.h5") + "\"");
 }
 
 TEST_F(BenchCommand, SaysInItsFilesWhatWasChosen) {
-  write("own.toml", own_scene);
   ASSERT_EQ(
       run("bench --scene own.toml --queues auto --repetitions 1 --min-time 0 --json kept.json")
           .exit_code,
@@ -199,7 +192,6 @@ TEST_F(BenchCommand, SaysInItsFilesWhatWasChosen) {
 }
 
 TEST_F(BenchCommand, TakesWallTimesOfThreadsAndLeavesOutWhatNeedsOne) {
-  write("own.toml", own_scene);
   const Outcome outcome =
       run("bench --scene own.toml --threads 1,2 --queues auto,tournament --repetitions 1 "
           "--min-time 0 --json kept.json");
@@ -218,10 +210,9 @@ TEST_F(BenchCommand, TakesWallTimesOfThreadsAndLeavesOutWhatNeedsOne) {
 TEST_F(BenchCommand, StartsFromTheStateThatASceneNames) {
   ASSERT_EQ(run("run small.toml --quiet --out start.h5").exit_code, 0);
   write("own.toml", "initial.file = 'start.h5'\n");
-  const json own = json_of("bench --scene own.toml --repetitions 1 --min-time 0 --json");
-  const json other = json_of("bench --scene small.toml --repetitions 1 --min-time 0 --json");
-  EXPECT_EQ(own["cases"][0]["needles"], 50);
-  EXPECT_NE(own["cases"][0]["warm_up_hash"], other["cases"][0]["warm_up_hash"]);
+  const json own = cases_of("own.toml")[0], other = cases_of("small.toml")[0];
+  EXPECT_EQ(own["needles"], 50);
+  EXPECT_NE(own["warm_up_hash"], other["warm_up_hash"]);
 }
 
 TEST_F(BenchCommand, WritesATableWithAFieldForEachPartOfAName) {

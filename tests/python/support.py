@@ -47,3 +47,10 @@ def printed_by(*words, **options):
     """What the program prints; it has to succeed."""
     return subprocess.run([os.environ["NEEDLEWORK_PROGRAM"], *map(str, words)], check=True,
                           capture_output=True, text=True, **options).stdout
+
+
+def script(path, text):
+    """A program of the shell at this path."""
+    path.write_text("#!/bin/sh\n" + text)
+    path.chmod(0o755)
+    return path
