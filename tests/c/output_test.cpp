@@ -21,11 +21,7 @@ class COutput : public ProgramTest {
   std::string scene_with_file(const std::string& more = "") const {
     return cooling + more + "output.file = \"" + path("gas.h5") + "\"\n";
   }
-  std::string info(const std::string& name) const {
-    const Outcome outcome = run("info " + name);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    return outcome.out;
-  }
+  std::string info(const std::string& name) const { return output_of("info " + name); }
 };
 
 TEST_F(COutput, IsReadByTheProgram) {

@@ -69,9 +69,8 @@ TEST_F(AuditCommand, PrintsOneJsonObjectForACleanRun) {
 }
 
 TEST_F(AuditCommand, PrintsATable) {
-  const Outcome outcome = run("audit small.toml");
-  EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_TRUE(contains(outcome.out, {"flights of pairs checked", "missed", "undecided"}));
+  EXPECT_TRUE(
+      contains(output_of("audit small.toml"), {"flights of pairs checked", "missed", "undecided"}));
   EXPECT_EQ(run("audit small.toml --quiet").out, "");
 }
 
@@ -88,9 +87,7 @@ TEST_F(AuditCommand, SaysByHowMuchRodsOverlap) {
 
 TEST_F(AuditCommand, ChecksNeedlesThatSlideButNotBesideWallsAndKicks) {
   const std::string sliding = "audit sliding.toml";
-  const Outcome outcome = run(sliding + " --json");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  const json result = outcome.json();
+  const json result = json_of(sliding + " --json");
   EXPECT_GT(result["contacts_entered"], 5);
   EXPECT_GE(result["contacts_entered"], result["contacts_ended"]);
   EXPECT_TRUE(contains(run(sliding).out, "sliding contacts checked"));

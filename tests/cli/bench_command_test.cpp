@@ -94,11 +94,10 @@ TEST_F(BenchCommand, MeasuresAtLeastTheTimeAskedFor) {
 }
 
 TEST_F(BenchCommand, PrintsATableAndKeepsItsResults) {
-  const Outcome first = run("bench smoke --repetitions 4 --min-time 0 --json kept.json");
-  ASSERT_EQ(first.exit_code, 0) << first.err;
+  const std::string first = output_of("bench smoke --repetitions 4 --min-time 0 --json kept.json");
   EXPECT_TRUE(
-      contains(first.out, {"n=1,N=200/auto/auto/standard/", "range of 4 interleaved repetitions"}));
-  EXPECT_EQ(run("bench --results kept.json").out, first.out);
+      contains(first, {"n=1,N=200/auto/auto/standard/", "range of 4 interleaved repetitions"}));
+  EXPECT_EQ(run("bench --results kept.json").out, first);
   const Outcome itself = run("bench --results kept.json --compare kept.json");
   EXPECT_TRUE(contains(itself.out, "baseline, +0.0 % by itself"));
   EXPECT_EQ(itself.exit_code, 0);
@@ -278,10 +277,9 @@ TEST_F(BenchCommand, TablesFitAHundredColumnsWithNamesOfCasesInFull) {
   write("wide.json", results.dump());
   for (const char* arguments :
        {"bench --results wide.json", "bench --results wide.json --compare wide.json"}) {
-    const Outcome outcome = run(arguments);
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_TRUE(contains(outcome.out, {longest, baseline}));
-    std::istringstream lines(outcome.out);
+    const std::string outcome = output_of(arguments);
+    EXPECT_TRUE(contains(outcome, {longest, baseline}));
+    std::istringstream lines(outcome);
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
   }
   // Medians and ranges.
@@ -314,12 +312,10 @@ TEST_F(BenchCommand, ReadsAllCommittedResultsOfScenes) {
 }
 
 TEST_F(BenchCommand, ListsItsSubsets) {
-  const Outcome outcome = run("bench --list");
-  EXPECT_EQ(outcome.exit_code, 0);
   for (const char* subset :
        {"quick", "dilute", "dense", "searches", "queues", "isa", "steps", "density", "size",
         "storage", "matrix", "cloud", "effects", "hulls", "mixtures"}) {
-    EXPECT_TRUE(contains(outcome.out, std::string(subset) + " ")) << subset;
+    EXPECT_TRUE(contains(output_of("bench --list"), std::string(subset) + " ")) << subset;
   }
   EXPECT_TRUE(contains(run("bench --help").out, "Whitney"));
 }
@@ -383,9 +379,8 @@ TEST_F(BenchCommand, ReportsCasesThatOnlyOneResultHas) {
   json old = results_of(steady, steady);
   old["cases"][1]["name"] = "s/other";
   write("old.json", old.dump());
-  const Outcome outcome = run("bench --results new.json --compare old.json");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_TRUE(contains(outcome.out, "only in the new results"));
+  EXPECT_TRUE(contains(output_of("bench --results new.json --compare old.json"),
+                       "only in the new results"));
   old["cases"][0]["name"] = "s/another";
   write("old.json", old.dump());
   EXPECT_TRUE(run("bench --results new.json --compare old.json").fails(3, "no case in common"));

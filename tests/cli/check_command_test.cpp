@@ -13,12 +13,10 @@ namespace {
 using CheckCommand = ProgramTest;
 
 TEST_F(CheckCommand, ExplainsAScene) {
-  const Outcome outcome = run("check small.toml --set collisions.tc_relative=1e-3");
-  EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_TRUE(
-      contains(outcome.out, {"Small gas\n", "50, k = 6, uniform rods", "elastic (epsilon = 1)",
-                             "0.001 of the present mean free time", "collisions_per_needle = 10",
-                             "250 collisions", "memory", "wall time"}));
+  EXPECT_TRUE(contains(output_of("check small.toml --set collisions.tc_relative=1e-3"),
+                       {"Small gas\n", "50, k = 6, uniform rods", "elastic (epsilon = 1)",
+                        "0.001 of the present mean free time", "collisions_per_needle = 10",
+                        "250 collisions", "memory", "wall time"}));
 }
 
 TEST_F(CheckCommand, PrintsOneJsonObject) {
@@ -60,9 +58,7 @@ driving.kicks = { every = 0.1, translational = 2 }
 driving.andersen = { rate = 0.5, temperature = 3 }
 walls = [{ axis = "z", side = "both" }]
 )");
-  const Outcome outcome = run("check walls.toml --json");
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const auto json = outcome.json();
+  const auto json = json_of("check walls.toml --json");
   ASSERT_EQ(json["walls"].size(), 2u);
   EXPECT_EQ(json["walls"][1]["side"], "high");
   EXPECT_NEAR(json["walls"][0]["hits_per_time"].get<double>(), 454.6, 0.05);

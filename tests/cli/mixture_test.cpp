@@ -28,10 +28,8 @@ class MixtureCommand : public ProgramTest {
 };
 
 TEST_F(MixtureCommand, IsExplainedBySpeciesAndPairs) {
-  const Outcome outcome = run("check cooling.toml");
-  EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_TRUE(contains(
-      outcome.out,
+      output_of("check cooling.toml"),
       {"species \"light\" of length 0.5 and mass 1", "at T_tr = 1, T_rot = 1, mean free time",
        "species \"heavy\" of length 1.5 and mass 8", "inelastic (epsilon = 0.8)",
        "heavy-heavy: inelastic (epsilon = 0.9), rough (beta = 0.5)",
@@ -87,26 +85,22 @@ TEST_F(MixtureCommand, EndsWithASummaryThatAPersonReads) {
             "\"\ncount = " + std::to_string(n == 17 ? 50 : 2) + "\n";
   }
   write("many.toml", text);
-  const Outcome summary = run("run many.toml");
-  EXPECT_EQ(summary.exit_code, 0);
-  EXPECT_LT(std::ranges::count(summary.out, '\n'), 40) << summary.out;
-  EXPECT_TRUE(
-      contains(summary.out, {"s17: 50 needles", "s17-s17: ",
-                             "32 more, each with as few or fewer: run --json has all, in species",
-                             "812 more, each with as few or fewer: run --json has all, in "
-                             "collisions_by_pair"}));
+  const std::string summary = output_of("run many.toml");
+  EXPECT_LT(std::ranges::count(summary, '\n'), 40) << summary;
+  EXPECT_TRUE(contains(
+      summary, {"s17: 50 needles",
+                "s17-s17: ", "32 more, each with as few or fewer: run --json has all, in species",
+                "812 more, each with as few or fewer: run --json has all, in "
+                "collisions_by_pair"}));
   EXPECT_EQ(json_of("run many.toml --json")["collisions_by_pair"].size(), 820u);
 }
 
 TEST_F(MixtureCommand, EndsWithASummaryBySpecies) {
-  const Outcome cooling = run("run cooling.toml");
-  EXPECT_EQ(cooling.exit_code, 0);
-  EXPECT_TRUE(
-      contains(cooling.out, {"theory", "light: 300 needles, T_tr = ", "heavy: 100 needles, T_tr = ",
-                             "light-light: ", "light-heavy: ", "heavy-heavy: ", "course"}));
-  const Outcome elastic = run("run elastic.toml");
-  EXPECT_EQ(elastic.exit_code, 0);
-  EXPECT_TRUE(contains(elastic.out, {"exact", "light-heavy: ", "ratio to the exact rate"}));
+  EXPECT_TRUE(contains(output_of("run cooling.toml"),
+                       {"theory", "light: 300 needles, T_tr = ", "heavy: 100 needles, T_tr = ",
+                        "light-light: ", "light-heavy: ", "heavy-heavy: ", "course"}));
+  EXPECT_TRUE(contains(output_of("run elastic.toml"),
+                       {"exact", "light-heavy: ", "ratio to the exact rate"}));
 }
 
 TEST_F(MixtureCommand, ComparesItsRunWithTheory) {

@@ -14,6 +14,7 @@
 #include "src/scene_text/document.h"
 #include "src/serve/server.h"
 #include "tests/cli/program.h"
+#include "tests/scene/message.h"
 
 namespace needlework::one_validity {
 namespace {
@@ -78,12 +79,7 @@ Scene made_in_code(const std::string& text) {
 }
 
 std::string refusal_of(const Scene& scene) {
-  try {
-    const Simulation simulation(scene);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { const Simulation simulation(scene); });
 }
 
 std::string refusal_by_c(const std::string& text) {
@@ -170,12 +166,8 @@ TEST_F(OneValidity, OfACheckpoint) {
     // A checkpoint has the sum of all counts as well, which is out of its range.
     if (!is_asked || each.rule == "more needles than ids") continue;
     ++refused;
-    try {
-      require_restored(scene);
-      ADD_FAILURE() << each.rule;
-    } catch (const InputError& error) {
-      expect_place_and_message(error.what(), "the scene: " + each.key, each.key, each);
-    }
+    expect_place_and_message(test::refusal([&] { require_restored(scene); }),
+                             "the scene: " + each.key, each.key, each);
   }
   EXPECT_GT(refused, 40);
 }

@@ -47,6 +47,12 @@ nlohmann::json ProgramTest::json_of(const std::string& arguments, const std::str
   return outcome.json();
 }
 
+std::string ProgramTest::output_of(const std::string& arguments) const {
+  const Outcome outcome = run(arguments);
+  EXPECT_EQ(outcome.exit_code, 0) << arguments << '\n' << outcome.err;
+  return outcome.out;
+}
+
 std::string ProgramTest::hash_of(const std::string& arguments, const std::string& before) const {
   return json_of(arguments + " --json --quiet", before)["trajectory_hash"];
 }

@@ -41,6 +41,8 @@ class ProgramTest : public testing::Test {
   /// The one object that `needlework ARGUMENTS` prints. Another exit code fails the test.
   nlohmann::json json_of(const std::string& arguments, const std::string& before = "",
                          int exit_code = 0) const;
+  /// All that `needlework ARGUMENTS` prints. Another exit code than 0 fails the test.
+  std::string output_of(const std::string& arguments) const;
   /// The hash of a run, of `needlework ARGUMENTS --json --quiet`.
   std::string hash_of(const std::string& arguments, const std::string& before = "") const;
   /// Runs any command of the shell.

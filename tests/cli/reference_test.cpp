@@ -10,9 +10,7 @@ namespace {
 class Reference : public ProgramTest {
  protected:
   std::string printed(const std::string& form) const {
-    const Outcome outcome = run("--print-reference " + form);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    return outcome.out;
+    return output_of("--print-reference " + form);
   }
   bool installed(const std::string& program) const {
     return shell("command -v " + program + " >/dev/null").exit_code == 0;

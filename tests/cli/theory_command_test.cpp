@@ -15,10 +15,8 @@ namespace {
 using TheoryCommand = ProgramTest;
 
 TEST_F(TheoryCommand, PrintsOneJsonObjectWithAllDigits) {
-  const Outcome outcome =
-      run("theory --epsilon 0.8 --k 6 --t-rot0 0 --tau 100 --tau 1 --tau 1e8 --json");
-  ASSERT_EQ(outcome.exit_code, 0);
-  const auto json = nlohmann::ordered_json::parse(outcome.out);
+  const auto json = nlohmann::ordered_json::parse(
+      output_of("theory --epsilon 0.8 --k 6 --t-rot0 0 --tau 100 --tau 1 --tau 1e8 --json"));
   std::vector<std::string> keys;
   for (const auto& item : json.items()) keys.push_back(item.key());
   EXPECT_EQ(keys, (std::vector<std::string>{"epsilon", "beta", "k", "c", "k_star", "tau", "t_tr",
@@ -99,10 +97,8 @@ TEST_F(TheoryCommand, StartsWithEqualTemperatures) {
 }
 
 TEST_F(TheoryCommand, PrintsATable) {
-  const Outcome outcome = run("theory --epsilon 0.8 --k 6 --t-rot0 0 --tau 1");
-  EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_TRUE(
-      contains(outcome.out, {"epsilon 0.8", "1.037732671", "4.360700345", "tau", "1.426099077"}));
+  EXPECT_TRUE(contains(output_of("theory --epsilon 0.8 --k 6 --t-rot0 0 --tau 1"),
+                       {"epsilon 0.8", "1.037732671", "4.360700345", "tau", "1.426099077"}));
 }
 
 TEST_F(TheoryCommand, SimulatesTheBoltzmannEquation) {

@@ -11,6 +11,7 @@
 #include "src/trajectory/saved_totals.h"
 #include "tests/runs/silent.h"
 #include "tests/support/contains.h"
+#include "tests/support/message_of.h"
 #include "tests/support/runs.h"
 #include "tests/support/saved_gas.h"
 #include "tests/support/temporary_folder.h"
@@ -31,12 +32,7 @@ class ContinuedRun : public testing::Test {
     return CheckpointFiles(scene.output.file).latest().checkpoint;
   }
   static std::string complaint_about(RunCheckpoint checkpoint) {
-    try {
-      PreparedRun run(std::move(checkpoint));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return test::message_of<InputError>([&] { PreparedRun run(std::move(checkpoint)); });
   }
 
   const test::TemporaryFolder folder;

@@ -14,6 +14,7 @@
 #include "src/runs/engine_choice.h"
 #include "src/runs/state_file.h"
 #include "tests/support/contains.h"
+#include "tests/support/message_of.h"
 #include "tests/support/runs.h"
 #include "tests/support/temporary_folder.h"
 
@@ -55,12 +56,7 @@ TEST(LoadedScene, ReadsTheInitialStateWhoseCountAndBoxTheSceneMayGive) {
   EXPECT_EQ(load(3, {3, 3, 3}).initial->velocity, state.velocity);
   EXPECT_EQ(load(3, {3, 3, 3 - 1e-14}).initial->box, state.box);
   const auto refused = [&](std::uint64_t count, std::array<double, 3> box, const char* message) {
-    try {
-      load(count, box);
-      ADD_FAILURE() << "accepted: " << message;
-    } catch (const InputError& error) {
-      EXPECT_EQ(error.what(), message + file);
-    }
+    EXPECT_EQ(test::message_of<InputError>([&] { load(count, box); }), message + file);
   };
   refused(2, {}, "needles.count = 2: expected 3, as in ");
   refused(0, {3, 3, 4}, "needles.box = [3, 3, 4]: expected [3, 3, 3], as in ");

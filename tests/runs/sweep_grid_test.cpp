@@ -8,6 +8,7 @@
 
 #include "needlework/error.h"
 #include "tests/support/contains.h"
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace needlework::runs::sweep {
@@ -28,16 +29,11 @@ class GridFile : public testing::Test {
   }
   // The message of the error without the folder.
   std::string error(const std::string& text) const {
-    try {
-      read(text);
-    } catch (const InputError& error) {
-      std::string message = error.what();
-      const std::string prefix = folder_.string() + "/";
-      for (auto at = message.find(prefix); at != message.npos; at = message.find(prefix))
-        message.erase(at, prefix.size());
-      return message;
-    }
-    return "none";
+    std::string message = test::message_of<InputError>([&] { read(text); });
+    const std::string prefix = folder_.string() + "/";
+    for (auto at = message.find(prefix); at != message.npos; at = message.find(prefix))
+      message.erase(at, prefix.size());
+    return message;
   }
 
  private:
