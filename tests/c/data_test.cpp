@@ -3,6 +3,7 @@
 
 #include "tests/c/c_simulation.h"
 #include "tests/cli/program.h"
+#include "tests/support/contains.h"
 
 namespace needlework {
 namespace {
@@ -83,8 +84,8 @@ TEST_F(CData, GoesToTheFileWithASampleAtAnyTime) {
     EXPECT_EQ(needlework_sample(simulation, 1), NEEDLEWORK_USAGE);
   }
   const Outcome info = run("info " + file);
-  EXPECT_NE(info.out.find("/user_data: 1 value, time 0 to 0"), std::string::npos) << info.out;
-  EXPECT_NE(info.out.find("60 particles, 2 frames"), std::string::npos) << info.out;
+  EXPECT_TRUE(
+      test::contains(info.out, {"/user_data: 1 value, time 0 to 0", "60 particles, 2 frames"}));
   const CSimulation without_file(cooling);
   EXPECT_EQ(needlework_sample(without_file, 0), NEEDLEWORK_USAGE);
 }

@@ -44,17 +44,15 @@ TEST_F(CFunctions, PredictWhatTheProgramPredicts) {
   ASSERT_GT(arrays.horizon.size(), 5u);
   const std::size_t count = arrays.horizon.size();
   for (const char* accuracy : {"fast", "standard", "rigorous"}) {
-    const Outcome program =
-        run(std::string("predict " NEEDLEWORK_SOURCE "/tests/cli/pairs/accuracy.csv --accuracy ") +
-            accuracy);
-    ASSERT_EQ(program.exit_code, 0) << program.err;
     std::vector<double> time(count), s12(count), s21(count);
     const needlework_pairs pairs = arrays.pairs(accuracy);
     needlework_error error;
     ASSERT_EQ(needlework_predict(&pairs, time.data(), s12.data(), s21.data(), &error),
               NEEDLEWORK_OK)
         << error.message;
-    std::istringstream out(program.out);
+    std::istringstream out(output_of(
+        std::string("predict " NEEDLEWORK_SOURCE "/tests/cli/pairs/accuracy.csv --accuracy ") +
+        accuracy));
     for (std::size_t n = 0; n < count; ++n) {
       do ASSERT_TRUE(std::getline(out, line));
       while (line.starts_with("id"));
@@ -96,10 +94,8 @@ TEST_F(CFunctions, SayWhichPairCannotBePredicted) {
 }
 
 TEST_F(CFunctions, GiveTheTheoryOfTheProgram) {
-  const Outcome program =
-      run("theory --epsilon 0.8 --k 6 --beta 0.5 --t-rot0 0.5 --tau 1 --tau 10 --json");
-  ASSERT_EQ(program.exit_code, 0) << program.err;
-  const nlohmann::json expected = program.json();
+  const nlohmann::json expected =
+      json_of("theory --epsilon 0.8 --k 6 --beta 0.5 --t-rot0 0.5 --tau 1 --tau 10 --json");
   const needlework_gas gas{6, 0.8, 0.5};
   double ratio = 0, t_tr[2], t_rot[2];
   const double tau[2] = {1, 10};

@@ -21,14 +21,7 @@ class COutput : public ProgramTest {
   std::string scene_with_file(const std::string& more = "") const {
     return cooling + more + "output.file = \"" + path("gas.h5") + "\"\n";
   }
-  std::string info(const std::string& name) const {
-    const Outcome outcome = run("info " + name);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    return outcome.out;
-  }
-  static bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != text.npos;
-  }
+  std::string info(const std::string& name) const { return output_of("info " + name); }
 };
 
 TEST_F(COutput, IsReadByTheProgram) {
@@ -39,8 +32,7 @@ TEST_F(COutput, IsReadByTheProgram) {
   EXPECT_EQ(needlework_close(simulation), NEEDLEWORK_OK);
   EXPECT_EQ(needlework_close(simulation), NEEDLEWORK_OK) << "does nothing again";
   const std::string text = info("gas.h5");
-  EXPECT_TRUE(contains(text, "60 particles")) << text;
-  EXPECT_TRUE(contains(text, "[200]")) << text;  // collisions
+  EXPECT_TRUE(contains(text, {"60 particles", "[200]"}));  // collisions
   EXPECT_EQ(simulation.totals().collisions, 200u) << "it can still be looked at";
   needlework_limits limits{};
   limits.collisions = 300;
@@ -115,10 +107,9 @@ TEST_F(COutput, KeepsAFileThatExistsUnlessItIsToBeReplaced) {
   const CSimulation refused(scene_with_file());
   EXPECT_EQ(refused, nullptr);
   EXPECT_EQ(refused.error.code, NEEDLEWORK_IO);
-  EXPECT_TRUE(contains(refused.error.message, "output.file = ")) << refused.error.message;
-  EXPECT_TRUE(contains(refused.error.message,
-                       "gas.h5\": exists already: expected a new file, or NEEDLEWORK_REPLACE"))
-      << refused.error.message;
+  EXPECT_TRUE(contains(
+      refused.error.message,
+      {"output.file = ", "gas.h5\": exists already: expected a new file, or NEEDLEWORK_REPLACE"}));
   EXPECT_EQ(read("gas.h5"), "precious");
   const CSimulation replaces(scene_with_file(), NEEDLEWORK_REPLACE);
   ASSERT_NE(replaces, nullptr) << replaces.error.message;
@@ -134,22 +125,15 @@ TEST_F(COutput, DoesNotReplaceAFileThatIsBeingWritten) {
   EXPECT_EQ(second, nullptr);
   EXPECT_EQ(second.error.code, NEEDLEWORK_IO);
   const std::string refusal = "cannot be replaced: another program or simulation has the file open";
-  EXPECT_TRUE(contains(second.error.message, refusal)) << second.error.message;
+  EXPECT_TRUE(contains(second.error.message, refusal));
   const CSimulation without_file(cooling);
   const std::string file = path("gas.h5");
   EXPECT_EQ(needlework_write_state(without_file, file.c_str(), NEEDLEWORK_REPLACE), NEEDLEWORK_IO);
-  EXPECT_TRUE(contains(without_file.message(), refusal)) << without_file.message();
+  EXPECT_TRUE(contains(without_file.message(), refusal));
   EXPECT_EQ(files(), (std::vector<std::string>{"gas.h5", "gas.h5.checkpoint", "small.toml"}));
   EXPECT_EQ(needlework_close(first), NEEDLEWORK_OK) << "its file is still there";
   const CSimulation third(scene_with_file(), NEEDLEWORK_REPLACE);
   EXPECT_NE(third, nullptr) << third.error.message;
-}
-
-TEST_F(COutput, ToAFolderThatDoesNotExistIsAnError) {
-  const CSimulation simulation(cooling + "output.file = \"" + path("none/gas.h5") + "\"\n");
-  EXPECT_EQ(simulation, nullptr);
-  EXPECT_EQ(simulation.error.code, NEEDLEWORK_IO);
-  EXPECT_TRUE(contains(simulation.error.message, "none/gas.h5")) << simulation.error.message;
 }
 
 TEST_F(COutput, OfAStateStartsAnotherSimulation) {
@@ -171,7 +155,7 @@ TEST_F(COutput, OfAStateKeepsWhatExistsUnlessItIsToBeReplaced) {
   const std::string file = path("state.h5");
   EXPECT_EQ(needlework_write_state(simulation, file.c_str(), 0), NEEDLEWORK_IO);
   EXPECT_TRUE(simulation.message().starts_with(file + ": ")) << simulation.message();
-  EXPECT_TRUE(contains(simulation.message(), "or NEEDLEWORK_REPLACE")) << simulation.message();
+  EXPECT_TRUE(contains(simulation.message(), "or NEEDLEWORK_REPLACE"));
   EXPECT_EQ(read("state.h5"), "precious");
   EXPECT_EQ(needlework_write_state(simulation, file.c_str(), NEEDLEWORK_REPLACE), NEEDLEWORK_OK);
   EXPECT_TRUE(contains(info("state.h5"), "60 particles"));
@@ -182,7 +166,7 @@ TEST_F(COutput, OfAStateDoesNotReplaceTheFileThatIsBeingWritten) {
   const CSimulation simulation(scene_with_file());
   const std::string file = path("gas.h5");
   EXPECT_EQ(needlework_write_state(simulation, file.c_str(), NEEDLEWORK_REPLACE), NEEDLEWORK_USAGE);
-  EXPECT_TRUE(contains(simulation.message(), "is the output file")) << simulation.message();
+  EXPECT_TRUE(contains(simulation.message(), "is the output file"));
   EXPECT_EQ(needlework_close(simulation), NEEDLEWORK_OK);
   EXPECT_EQ(needlework_write_state(simulation, file.c_str(), NEEDLEWORK_REPLACE), NEEDLEWORK_OK);
 }

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "tests/c/c_simulation.h"
+#include "tests/support/contains.h"
 
 namespace needlework {
 namespace {
@@ -135,9 +136,9 @@ TEST(CSpecies, RefusesSpeciesThatDoNotFit) {
   std::vector<std::uint8_t> species = species_of_needles(gas);
   species[3] = 1;
   const std::string counted = rules + mixture("count = 80\n", "count = 20\n");
-  EXPECT_NE(message(counted, species).find("species"), std::string::npos);
+  EXPECT_TRUE(test::contains(message(counted, species), "species"));
   species[3] = 2;
-  EXPECT_NE(message(counted, species).find("expected an index below 2"), std::string::npos);
+  EXPECT_TRUE(test::contains(message(counted, species), "expected an index below 2"));
 }
 
 TEST(CSpecies, OfASceneWithoutAnyIsOne) {

@@ -24,10 +24,8 @@ class Accuracy : public ProgramTest {
 
   /// Contact times by id.
   std::vector<double> times(const std::string& flags) const {
-    const needlework::Outcome outcome = run("predict " + pairs + ' ' + flags);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     std::vector<double> out;
-    std::istringstream lines(outcome.out);
+    std::istringstream lines(output_of("predict " + pairs + ' ' + flags));
     for (std::string line; std::getline(lines, line);) {
       out.push_back(std::strtod(line.c_str() + line.find(',') + 1, nullptr));
     }
@@ -131,10 +129,8 @@ TEST_F(Accuracy, RunsDifferByAccuracyAndByNothingElse) {
   for (const char* accuracy : {"fast", "standard", "rigorous"}) {
     for (const char* how : {"--set engine.search=all-pairs", "--set engine.search=linked-cells",
                             "--set engine.search=capsules", "--threads 2 --isa scalar"}) {
-      const needlework::Outcome outcome = run(
+      const auto report = json_of(
           std::string("run gas.toml --json --quiet --set engine.accuracy=") + accuracy + ' ' + how);
-      ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-      const auto report = outcome.json();
       EXPECT_EQ(report.at("accuracy"), accuracy);
       const std::string hash = report.at("trajectory_hash");
       EXPECT_EQ(hashes.try_emplace(accuracy, hash).first->second, hash) << accuracy << how;
@@ -142,11 +138,10 @@ TEST_F(Accuracy, RunsDifferByAccuracyAndByNothingElse) {
   }
   EXPECT_NE(hashes["fast"], hashes["standard"]);
   EXPECT_NE(hashes["rigorous"], hashes["standard"]);
-  const needlework::Outcome knobs =
-      run("run gas.toml --json --quiet --set engine.isolation=sampling "
-          "--set engine.filter=double");
-  ASSERT_EQ(knobs.exit_code, 0) << knobs.err;
-  EXPECT_EQ(knobs.json().at("accuracy"), "standard, isolation sampling, filter double");
+  EXPECT_EQ(json_of("run gas.toml --json --quiet --set engine.isolation=sampling "
+                    "--set engine.filter=double")
+                .at("accuracy"),
+            "standard, isolation sampling, filter double");
 }
 
 // The filter is no part of what a contact is.

@@ -11,25 +11,13 @@ using nlohmann::json;
 class AuditCommand : public ProgramTest {
  protected:
   AuditCommand() {
-    write("cooling.toml", R"(
-[needles]
-count = 200
-box = 7
-[collisions]
-epsilon = 0.8
-tc_relative = 1e-3
-[until]
-collisions_per_needle = 60
+    write("cooling.toml", R"(needles = { count = 200, box = 7 }
+collisions = { epsilon = 0.8, tc_relative = 1e-3 }
+until.collisions_per_needle = 60
 )");
-    write("sliding.toml", R"(
-[needles]
-count = 120
-box = 5
-[collisions]
-epsilon = 0.5
-sliding = true
-[until]
-collisions_per_needle = 8
+    write("sliding.toml", R"(needles = { count = 120, box = 5 }
+collisions = { epsilon = 0.5, sliding = true }
+until.collisions_per_needle = 8
 )");
   }
 
@@ -81,11 +69,8 @@ TEST_F(AuditCommand, PrintsOneJsonObjectForACleanRun) {
 }
 
 TEST_F(AuditCommand, PrintsATable) {
-  const Outcome outcome = run("audit small.toml");
-  EXPECT_EQ(outcome.exit_code, 0);
-  for (const char* part : {"flights of pairs checked", "missed", "undecided"}) {
-    EXPECT_NE(outcome.out.find(part), std::string::npos) << outcome.out;
-  }
+  EXPECT_TRUE(
+      contains(output_of("audit small.toml"), {"flights of pairs checked", "missed", "undecided"}));
   EXPECT_EQ(run("audit small.toml --quiet").out, "");
 }
 
@@ -97,18 +82,15 @@ TEST_F(AuditCommand, SaysByHowMuchRodsOverlap) {
   EXPECT_LT(overlap["at_collisions"], overlap["at_most"]);
   EXPECT_LT(overlap["at_most"].get<double>(), 1e-11);
   const Outcome text = run(rods);
-  EXPECT_NE(text.out.find("of the diameter is the largest at a collision"), std::string::npos)
-      << text.out;
+  EXPECT_TRUE(contains(text.out, "of the diameter is the largest at a collision"));
 }
 
 TEST_F(AuditCommand, ChecksNeedlesThatSlideButNotBesideWallsAndKicks) {
   const std::string sliding = "audit sliding.toml";
-  const Outcome outcome = run(sliding + " --json");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  const json result = outcome.json();
+  const json result = json_of(sliding + " --json");
   EXPECT_GT(result["contacts_entered"], 5);
   EXPECT_GE(result["contacts_entered"], result["contacts_ended"]);
-  EXPECT_NE(run(sliding).out.find("sliding contacts checked"), std::string::npos);
+  EXPECT_TRUE(contains(run(sliding).out, "sliding contacts checked"));
   write("between_walls.toml",
         "needles = { count = 20, box = 5 }\ncollisions = { epsilon = 0.5, sliding = true }\n"
         "until.time = 1\nwalls = [{ axis = \"z\", side = \"both\" }]\n");
@@ -129,8 +111,7 @@ TEST_F(AuditCommand, TakesAShareOfThePairs) {
   const json none = run("audit small.toml --json --share 1e-12").json();
   EXPECT_EQ(none["checked"], 0);
   EXPECT_TRUE(none["bound95"]["missed"].is_null());
-  const Outcome nothing = run("audit small.toml --quiet --share 1e-12");
-  EXPECT_TRUE(nothing.complains("expected a larger share"));
+  EXPECT_TRUE(run("audit small.toml --quiet --share 1e-12").complains("expected a larger share"));
 }
 
 TEST_F(AuditCommand, GoesOnWhereItWasInterrupted_long) {
@@ -142,26 +123,22 @@ TEST_F(AuditCommand, GoesOnWhereItWasInterrupted_long) {
 TEST_F(AuditCommand, SavesWhenStopped) {
   const Outcome outcome =
       run("audit cooling.toml --set until.wall_s=0 --state audit.state --json --quiet");
-  EXPECT_EQ(outcome.exit_code, 75);
-  EXPECT_TRUE(outcome.complains("saved in audit.state"));
+  EXPECT_TRUE(outcome.fails(75, "saved in audit.state"));
   EXPECT_FALSE(outcome.json()["complete"].get<bool>());
   EXPECT_TRUE(exists("audit.state"));
-  const Outcome other = run("audit small.toml --state audit.state");
-  EXPECT_EQ(other.exit_code, 3);
-  EXPECT_TRUE(other.complains("audit.state: the state of another audit"));
+  EXPECT_TRUE(run("audit small.toml --state audit.state")
+                  .fails(3, "audit.state: the state of another audit"));
   write("audit.state", "{}");
   EXPECT_EQ(run("audit cooling.toml --state audit.state").exit_code, 3);
   EXPECT_EQ(run("audit cooling.toml --state nowhere/audit.state").exit_code, 5);
 }
 
 TEST_F(AuditCommand, NamesWhatIsWrongInItsInput) {
-  EXPECT_TRUE(run("audit small.toml --set needles.box=2").complains("needles.box"));
-  EXPECT_EQ(run("audit small.toml --set needles.box=2").exit_code, 3);
+  EXPECT_TRUE(run("audit small.toml --set needles.box=2").fails(3, "needles.box"));
   EXPECT_EQ(run("audit none.toml").exit_code, 5);
-  EXPECT_EQ(run("audit small.toml --share 2").exit_code, 2);
-  EXPECT_EQ(run("audit small.toml --share nan").exit_code, 2);
-  EXPECT_EQ(run("audit small.toml --share 0").exit_code, 2);
-  EXPECT_EQ(run("audit small.toml --seed -1").exit_code, 2);
+  for (const std::string option : {"--share 2", "--share nan", "--share 0", "--seed -1"}) {
+    EXPECT_EQ(run("audit small.toml " + option).exit_code, 2) << option;
+  }
   EXPECT_EQ(run("audit small.toml --set initial.t_tr=0 --set initial.t_rot=0").exit_code, 3);
 }
 

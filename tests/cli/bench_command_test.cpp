@@ -18,8 +18,17 @@ using nlohmann::json;
 constexpr const char* baseline_name = "s/linked-lists/indexed-heap/standard/scalar/threads:1";
 constexpr const char* case_name = "s/auto/auto/standard/avx512/threads:1";
 
+constexpr const char* own_scene =
+    "needles = { count = 100, box = 5 }\ncollisions = { epsilon = 0.9, tc_relative = 1e-2 }\n";
+
 class BenchCommand : public ProgramTest {
  protected:
+  BenchCommand() { write("own.toml", own_scene); }
+  // The cases of a scene, each measured once and for a moment.
+  json cases_of(const std::string& arguments) const {
+    return json_of("bench --repetitions 1 --min-time 0 --json --scene " + arguments)["cases"];
+  }
+
   static json case_of(const std::string& name, bool baseline, const std::vector<double>& us) {
     return {{"name", name}, {"baseline", baseline}, {"us_per_collision", us}};
   }
@@ -85,24 +94,18 @@ TEST_F(BenchCommand, MeasuresAtLeastTheTimeAskedFor) {
 }
 
 TEST_F(BenchCommand, PrintsATableAndKeepsItsResults) {
-  const Outcome first = run("bench smoke --repetitions 4 --min-time 0 --json kept.json");
-  ASSERT_EQ(first.exit_code, 0) << first.err;
-  EXPECT_NE(first.out.find("n=1,N=200/auto/auto/standard/"), std::string::npos) << first.out;
-  EXPECT_NE(first.out.find("range of 4 interleaved repetitions"), std::string::npos) << first.out;
-  EXPECT_EQ(run("bench --results kept.json").out, first.out);
+  const std::string first = output_of("bench smoke --repetitions 4 --min-time 0 --json kept.json");
+  EXPECT_TRUE(
+      contains(first, {"n=1,N=200/auto/auto/standard/", "range of 4 interleaved repetitions"}));
+  EXPECT_EQ(run("bench --results kept.json").out, first);
   const Outcome itself = run("bench --results kept.json --compare kept.json");
-  EXPECT_NE(itself.out.find("baseline, +0.0 % by itself"), std::string::npos) << itself.out;
+  EXPECT_TRUE(contains(itself.out, "baseline, +0.0 % by itself"));
   EXPECT_EQ(itself.exit_code, 0);
-  const Outcome again = run("bench smoke --json kept.json");
-  EXPECT_EQ(again.exit_code, 5);
-  EXPECT_TRUE(again.complains("--json kept.json: exists already: expected a new file, or --force"));
+  EXPECT_TRUE(run("bench smoke --json kept.json")
+                  .fails(5, "--json kept.json: exists already: expected a new file, or --force"));
 }
 
-constexpr const char* own_scene =
-    "needles = { count = 100, box = 5 }\ncollisions = { epsilon = 0.9, tc_relative = 1e-2 }\n";
-
 TEST_F(BenchCommand, MeasuresASceneOfTheUserWithTheStrategiesAskedFor) {
-  write("own.toml", own_scene);
   const json object = json_of(
       "bench --scene own.toml --set needles.count=120 --searches linked-cells,all-pairs "
       "--queues bucket,lazy-heap,bucket --isa scalar --repetitions 6 --min-time 0 --json");
@@ -132,9 +135,7 @@ TEST_F(BenchCommand, MeasuresASceneOfTheUserWithTheStrategiesAskedFor) {
 }
 
 TEST_F(BenchCommand, ComparesSearchesWhereNothingIsSaid) {
-  write("own.toml", own_scene);
-  const json cases =
-      run("bench --scene own.toml --repetitions 1 --min-time 0 --json").json()["cases"];
+  const json cases = cases_of("own.toml");
   ASSERT_EQ(cases.size(), 3u);
   EXPECT_EQ(cases[1]["search"], "linked-cells");
   EXPECT_EQ(cases[2]["search"], "capsules");
@@ -142,26 +143,20 @@ TEST_F(BenchCommand, ComparesSearchesWhereNothingIsSaid) {
 }
 
 TEST_F(BenchCommand, ComparesLevelsOfAccuracyAndSizes) {
-  write("own.toml", own_scene);
-  const json object = json_of(
-      "bench --scene own.toml --set engine.search='\"capsules\"' --accuracy fast,standard,rigorous "
-      "--capsule-radii 0.1,0.2 --repetitions 1 --min-time 0 --json");
-  ASSERT_EQ(object["cases"].size(), 7u);
+  const json cases = cases_of(
+      "own.toml --set engine.search='\"capsules\"' --accuracy fast,standard,rigorous "
+      "--capsule-radii 0.1,0.2");
+  ASSERT_EQ(cases.size(), 7u);
   const char* levels[] = {"fast", "standard", "rigorous"};
   for (std::size_t n = 1; n < 7; ++n) {
-    const json& one = object["cases"][n];
+    const json& one = cases[n];
     EXPECT_EQ(one["accuracy"], levels[(n - 1) / 2]);
     EXPECT_EQ(one["capsule_radius"], n % 2 ? 0.1 : 0.2);
   }
-  const json sides = json_of(
-      "bench --scene own.toml --searches linked-cells --cell-sides 0.5 --repetitions 1 --min-time "
-      "0 "
-      "--json");
-  EXPECT_EQ(sides["cases"][1]["cell_side"], 0.5);
+  EXPECT_EQ(cases_of("own.toml --searches linked-cells --cell-sides 0.5")[1]["cell_side"], 0.5);
 }
 
 TEST_F(BenchCommand, ComparesOtherValuesOfAnyKey) {
-  write("own.toml", own_scene);
   const Outcome outcome =
       run("bench --scene own.toml --vary collisions.epsilon=0.5 --vary needles.count=50 "
           "--repetitions 1 --min-time 0 --json kept.json --csv kept.csv");
@@ -171,22 +166,18 @@ TEST_F(BenchCommand, ComparesOtherValuesOfAnyKey) {
   EXPECT_TRUE(kept["cases"][0]["setting"].is_null());
   EXPECT_EQ(kept["cases"][1]["setting"], "collisions.epsilon=0.5");
   EXPECT_EQ(kept["cases"][2]["setting"], "needles.count=50");
-  EXPECT_NE(read("kept.csv").find(",needles.count=50,"), std::string::npos);
+  EXPECT_TRUE(contains(read("kept.csv"), ",needles.count=50,"));
   // A value with the sign that separates the parts of a name.
   ASSERT_EQ(run("run small.toml --quiet --out start.h5").exit_code, 0);
   write("state.toml", "");
-  const json state = json_of(
-      "bench --scene state.toml --set initial.file='\"start.h5\"' --vary "
-      "initial.file='\"" +
-      path("start.h5") +
-      "\"' --repetitions 1 "
-      "--min-time 0 --json");
-  ASSERT_EQ(state["cases"].size(), 2u);
-  EXPECT_EQ(state["cases"][1]["setting"], "initial.file=\"" + path("start.h5") + "\"");
+  const json state =
+      cases_of("state.toml --set initial.file='\"start.h5\"' --vary initial.file='\"" +
+               path("start.h5") + "\"'");
+  ASSERT_EQ(state.size(), 2u);
+  EXPECT_EQ(state[1]["setting"], "initial.file=\"" + path("start.h5") + "\"");
 }
 
 TEST_F(BenchCommand, SaysInItsFilesWhatWasChosen) {
-  write("own.toml", own_scene);
   ASSERT_EQ(
       run("bench --scene own.toml --queues auto --repetitions 1 --min-time 0 --json kept.json")
           .exit_code,
@@ -200,16 +191,14 @@ TEST_F(BenchCommand, SaysInItsFilesWhatWasChosen) {
 }
 
 TEST_F(BenchCommand, TakesWallTimesOfThreadsAndLeavesOutWhatNeedsOne) {
-  write("own.toml", own_scene);
   const Outcome outcome =
       run("bench --scene own.toml --threads 1,2 --queues auto,tournament --repetitions 1 "
           "--min-time 0 --json kept.json");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(outcome.err.find("tournament/standard/"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("threads:2: left out, as its search or calendar is for one thread"),
-            std::string::npos)
-      << outcome.err;
-  EXPECT_NE(outcome.out.find("Wall time of the event loop"), std::string::npos) << outcome.out;
+  EXPECT_TRUE(contains(outcome.err, "tournament/standard/"));
+  EXPECT_TRUE(
+      contains(outcome.err, "threads:2: left out, as its search or calendar is for one thread"));
+  EXPECT_TRUE(contains(outcome.out, "Wall time of the event loop"));
   const json kept = json::parse(read("kept.json"));
   EXPECT_EQ(kept["clock"], "wall");
   ASSERT_EQ(kept["cases"].size(), 3u);
@@ -220,10 +209,9 @@ TEST_F(BenchCommand, TakesWallTimesOfThreadsAndLeavesOutWhatNeedsOne) {
 TEST_F(BenchCommand, StartsFromTheStateThatASceneNames) {
   ASSERT_EQ(run("run small.toml --quiet --out start.h5").exit_code, 0);
   write("own.toml", "initial.file = 'start.h5'\n");
-  const json own = json_of("bench --scene own.toml --repetitions 1 --min-time 0 --json");
-  const json other = json_of("bench --scene small.toml --repetitions 1 --min-time 0 --json");
-  EXPECT_EQ(own["cases"][0]["needles"], 50);
-  EXPECT_NE(own["cases"][0]["warm_up_hash"], other["cases"][0]["warm_up_hash"]);
+  const json own = cases_of("own.toml")[0], other = cases_of("small.toml")[0];
+  EXPECT_EQ(own["needles"], 50);
+  EXPECT_NE(own["warm_up_hash"], other["warm_up_hash"]);
 }
 
 TEST_F(BenchCommand, WritesATableWithAFieldForEachPartOfAName) {
@@ -248,11 +236,11 @@ TEST_F(BenchCommand, WritesATableWithAFieldForEachPartOfAName) {
       << baseline;
   EXPECT_TRUE(bucket.starts_with("\"my, scene\",auto,bucket,standard," + isa + ",1,sorted,"))
       << bucket;
-  EXPECT_NE(bucket.find(",linked-cells,bucket,100,0.8,false,"), std::string::npos) << bucket;
+  EXPECT_TRUE(contains(bucket, ",linked-cells,bucket,100,0.8,false,"));
   EXPECT_TRUE(bucket.ends_with(",6,cpu")) << bucket;
   // The same from a file, but for what only measuring tells.
   ASSERT_EQ(run("bench --results kept.json --csv again.csv").exit_code, 0);
-  EXPECT_NE(read("again.csv").find(",auto,bucket,standard," + isa + ",1"), std::string::npos);
+  EXPECT_TRUE(contains(read("again.csv"), ",auto,bucket,standard," + isa + ",1"));
 }
 
 TEST_F(BenchCommand, WritesOneLineForEachCaseAndNoOtherSamples) {
@@ -289,16 +277,14 @@ TEST_F(BenchCommand, TablesFitAHundredColumnsWithNamesOfCasesInFull) {
   write("wide.json", results.dump());
   for (const char* arguments :
        {"bench --results wide.json", "bench --results wide.json --compare wide.json"}) {
-    const Outcome outcome = run(arguments);
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find(longest), std::string::npos) << outcome.out;
-    EXPECT_NE(outcome.out.find(baseline), std::string::npos) << outcome.out;
-    std::istringstream lines(outcome.out);
+    const std::string outcome = output_of(arguments);
+    EXPECT_TRUE(contains(outcome, {longest, baseline}));
+    std::istringstream lines(outcome);
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
   }
   // Medians and ranges.
-  EXPECT_NE(run("bench --results wide.json").out.find("2500  1000-4000"), std::string::npos);
-  EXPECT_NE(run("bench --results wide.json").out.find(" 622  9.99-1234"), std::string::npos);
+  EXPECT_TRUE(
+      contains(run("bench --results wide.json").out, {"2500  1000-4000", " 622  9.99-1234"}));
   const std::string list = run("bench --list").out;
   std::istringstream cases(list);
   for (std::string line; std::getline(cases, line);) {
@@ -326,15 +312,12 @@ TEST_F(BenchCommand, ReadsAllCommittedResultsOfScenes) {
 }
 
 TEST_F(BenchCommand, ListsItsSubsets) {
-  const Outcome outcome = run("bench --list");
-  EXPECT_EQ(outcome.exit_code, 0);
   for (const char* subset :
        {"quick", "dilute", "dense", "searches", "queues", "isa", "steps", "density", "size",
         "storage", "matrix", "cloud", "effects", "hulls", "mixtures"}) {
-    EXPECT_NE(outcome.out.find(std::string(subset) + " "), std::string::npos) << subset << " in\n"
-                                                                              << outcome.out;
+    EXPECT_TRUE(contains(output_of("bench --list"), std::string(subset) + " ")) << subset;
   }
-  EXPECT_NE(run("bench --help").out.find("Whitney"), std::string::npos);
+  EXPECT_TRUE(contains(run("bench --help").out, "Whitney"));
 }
 
 const std::vector<double> steady{40, 41, 40.5, 40.2, 40.8};
@@ -388,7 +371,7 @@ TEST_F(BenchCommand, JudgesTheTimesOfRunsThatDifferInOneSetting) {
   EXPECT_EQ(judged[1]["old_name"], case_name);
   EXPECT_TRUE(judged[1]["new_relative_cost"].is_null());
   const Outcome text = run("bench --results new.json --compare old.json");
-  EXPECT_NE(text.out.find("accuracy: standard before, rigorous now."), std::string::npos);
+  EXPECT_TRUE(contains(text.out, "accuracy: standard before, rigorous now."));
 }
 
 TEST_F(BenchCommand, ReportsCasesThatOnlyOneResultHas) {
@@ -396,18 +379,14 @@ TEST_F(BenchCommand, ReportsCasesThatOnlyOneResultHas) {
   json old = results_of(steady, steady);
   old["cases"][1]["name"] = "s/other";
   write("old.json", old.dump());
-  const Outcome outcome = run("bench --results new.json --compare old.json");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("only in the new results"), std::string::npos) << outcome.out;
+  EXPECT_TRUE(contains(output_of("bench --results new.json --compare old.json"),
+                       "only in the new results"));
   old["cases"][0]["name"] = "s/another";
   write("old.json", old.dump());
-  const Outcome none = run("bench --results new.json --compare old.json");
-  EXPECT_EQ(none.exit_code, 3);
-  EXPECT_TRUE(none.complains("no case in common"));
+  EXPECT_TRUE(run("bench --results new.json --compare old.json").fails(3, "no case in common"));
   // Reported before anything is measured: this would take a quarter of an hour.
-  const Outcome measured = run("bench smoke --min-time 200 --json new_too.json --compare old.json");
-  EXPECT_EQ(measured.exit_code, 3);
-  EXPECT_TRUE(measured.complains("no case in common"));
+  EXPECT_TRUE(run("bench smoke --min-time 200 --json new_too.json --compare old.json")
+                  .fails(3, "no case in common"));
 }
 
 TEST_F(BenchCommand, WarnsOfOtherCausesOfChangedCosts) {
@@ -471,10 +450,7 @@ TEST_F(BenchCommand, RefusesBadInput) {
       {"bench --scene small.toml --set initial.t_tr=0 --set initial.t_rot=0 --min-time 0",
        "nothing can happen: expected needles that collide", 4}};
   for (const auto& [arguments, message, exit_code] : cases) {
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.exit_code, exit_code) << arguments;
-    EXPECT_TRUE(outcome.complains(message)) << arguments;
-    EXPECT_EQ(outcome.out, "") << arguments;
+    EXPECT_TRUE(run(arguments).fails(exit_code, message)) << arguments;
   }
 }
 

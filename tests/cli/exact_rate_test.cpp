@@ -38,8 +38,8 @@ TEST_F(ExactRate, IsThatOfAFiniteGasBetweenWalls) {
   const double expected = theory::pair_factor_between_walls(needle, {1, 1}, needle, {1, 1}, 1.5) *
                           theory::equilibrium_rate(12, 30, 12 * 5, 6, 2);
   EXPECT_NEAR(of(between_walls("")).get<double>(), expected, 1e-10);
-  EXPECT_NE(run("check gas.toml").out.find("exact rate"), std::string::npos);
-  EXPECT_NE(run("run gas.toml").out.find(", exact "), std::string::npos);
+  EXPECT_TRUE(contains(run("check gas.toml").out, "exact rate"));
+  EXPECT_TRUE(contains(run("run gas.toml").out, ", exact "));
 }
 
 // Of an inelastic gas, which collides as often as one without walls does at another density.
@@ -81,7 +81,7 @@ TEST_F(ExactRate, IsThatOfEachTwoSpeciesBetweenWalls) {
                      open[both.pair_index(0, 1)] * factor(small, large) +
                      open[both.pair_index(1, 1)] * factor(large, large);
   EXPECT_NEAR(of(scene).get<double>(), 2 * all / 13, 1e-9);
-  EXPECT_NE(run("run gas.toml").out.find("ratio to the exact rate"), std::string::npos);
+  EXPECT_TRUE(contains(run("run gas.toml").out, "ratio to the exact rate"));
 }
 
 // Velocities are those of Maxwell then.

@@ -13,6 +13,16 @@ using io::replaced;
 
 using ImportCommand = ProgramTest;
 
+const std::string row_of_x = "X 1 3 3 1 0 0 1 0 0 0 1 0\n";
+
+// A frame of extended XYZ in a cube of edge 6, with more in its comment.
+std::string xyz_of(const std::string& more, const std::string& rows = row_of_x, int count = 1) {
+  return std::to_string(count) +
+         "\nLattice=\"6 0 0 0 6 0 0 0 6\" Properties=species:S:1:pos:R:3:velo:R:3:orientation:R:3:"
+         "angular_velocity:R:3 " +
+         more + "\n" + rows;
+}
+
 TEST_F(ImportCommand, MakesASceneThatRuns) {
   write("lines.xml", dynamo_text);
   const Outcome imported = run("import lines.xml --out a/b");
@@ -39,9 +49,8 @@ TEST_F(ImportCommand, KeepsExistingFilesUnlessForced) {
   ASSERT_EQ(run("import lines.xml --out a").exit_code, 0);
   const std::string before = read("a/state.h5");
   write("other.xml", replaced(dynamo_text, "x=\"0.3\"", "x=\"0.4\""));
-  const Outcome refused = run("import other.xml --out a");
-  EXPECT_EQ(refused.exit_code, 5);
-  EXPECT_TRUE(refused.complains("a/scene.toml: exists already: expected a new file, or --force"));
+  EXPECT_TRUE(run("import other.xml --out a")
+                  .fails(5, "a/scene.toml: exists already: expected a new file, or --force"));
   EXPECT_EQ(read("a/state.h5"), before);
   EXPECT_EQ(run("import other.xml --out a --force").exit_code, 0);
   EXPECT_NE(read("a/state.h5"), before);
@@ -58,18 +67,15 @@ TEST_F(ImportCommand, WritesNothingAfterAnError) {
         std::tuple("small.toml --out a", 3, "which needlework run small.toml runs"),
         std::tuple(". --out a", 5, ".: cannot be read: Is a directory"),
         std::tuple("gravity.xml", 2, "--out is missing: expected needlework import")}) {
-    const Outcome outcome = run(std::string("import ") + arguments);
-    EXPECT_EQ(outcome.exit_code, exit_code) << arguments;
-    EXPECT_TRUE(outcome.complains(message));
+    EXPECT_TRUE(run(std::string("import ") + arguments).fails(exit_code, message)) << arguments;
   }
   EXPECT_FALSE(exists("a"));
 }
 
 TEST_F(ImportCommand, WritesWallsAndGravity) {
   write("a.xyz",
-        "1\nLattice=\"6 0 0 0 6 0 0 0 6\" Properties=species:S:1:pos:R:3:velo:R:3:orientation:R:3:"
-        "angular_velocity:R:3 pbc=\"T T F\" length=1 mass=1 k=6 epsilon=1 walls=z-low,z-high "
-        "wall_epsilon=0.5,1 gravity=0,0,-2\nX 1 3 3 1 0 0 1 0 0 0 1 0\n");
+        xyz_of("pbc=\"T T F\" length=1 mass=1 k=6 epsilon=1 walls=z-low,z-high wall_epsilon=0.5,1 "
+               "gravity=0,0,-2"));
   const Outcome imported = run("import a.xyz --out a");
   EXPECT_EQ(imported.exit_code, 0) << imported.err;
   EXPECT_EQ(imported.err, "");
@@ -82,61 +88,44 @@ TEST_F(ImportCommand, WritesWallsAndGravity) {
 }
 
 TEST_F(ImportCommand, AssumesWallsWhereABoxIsNotPeriodic) {
-  const std::string text =
-      "1\nLattice=\"6 0 0 0 6 0 0 0 6\" Properties=species:S:1:pos:R:3:velo:R:3:orientation:R:3:"
-      "angular_velocity:R:3 pbc=\"F T T\" length=1 mass=1 k=6 epsilon=1\nX 1 3 3 1 0 0 1 0 0 0 1 "
-      "0\n";
+  const std::string text = xyz_of("pbc=\"F T T\" length=1 mass=1 k=6 epsilon=1");
   write("a.xyz", text);
-  const Outcome imported = run("import a.xyz --out a");
-  EXPECT_EQ(imported.exit_code, 0);
-  EXPECT_TRUE(imported.complains("walls at rest with epsilon = 1 are assumed"));
+  EXPECT_TRUE(run("import a.xyz --out a").fails(0, "walls at rest with epsilon = 1 are assumed"));
   const Scene scene = read_scene(path("a/scene.toml"));
   ASSERT_EQ(scene.walls.size(), 1u);
   EXPECT_EQ(scene.walls[0].axis + scene.walls[0].side, "xboth");
   write("b.xyz", replaced(text, "epsilon=1", "epsilon=1 walls=y-low,y-high"));
-  const Outcome refused = run("import b.xyz --out b");
-  EXPECT_EQ(refused.exit_code, 3);
-  EXPECT_TRUE(refused.complains("not periodic along x, with walls along others: expected walls"));
+  EXPECT_TRUE(run("import b.xyz --out b")
+                  .fails(3, "not periodic along x, with walls along others: expected walls"));
 }
 
 TEST_F(ImportCommand, WhatItAssumesMayBeSaidOtherwise) {
-  const std::string text =
-      "1\nLattice=\"6 0 0 0 6 0 0 0 6\" Properties=species:S:1:pos:R:3:velo:R:3:orientation:R:3:"
-      "angular_velocity:R:3 length=1 mass=1 epsilon=1\nX 1 3 3 1 0 0 1 0 0 0 1 0\n";
-  write("a.xyz", text);
+  write("a.xyz", xyz_of("length=1 mass=1 epsilon=1"));
   ASSERT_TRUE(run("import a.xyz --out a").complains("k is not in the file: 6 is assumed"));
   EXPECT_EQ(run("check a/scene.toml --set until.time=1 --set species.k=3").exit_code, 0);
-  const Outcome longer = run("check a/scene.toml --set until.time=1 --set species.length=2");
-  EXPECT_EQ(longer.exit_code, 3);
-  EXPECT_TRUE(longer.complains("--set species.length=2: expected 1, as in "));
+  EXPECT_TRUE(run("check a/scene.toml --set until.time=1 --set species.length=2")
+                  .fails(3, "--set species.length=2: expected 1, as in "));
 }
 
 TEST_F(ImportCommand, TellsOfBodiesThatOverlap) {
-  const std::string text =
-      "4\nLattice=\"6 0 0 0 6 0 0 0 6\" Properties=species:S:1:pos:R:3:velo:R:3:orientation:R:3:"
-      "angular_velocity:R:3 length=0 diameter=1 mass=1 k=6 epsilon=1\n";
   const std::string rest = " 3 3 1 0 0 1 0 0 0 0 0\n";
-  write("a.xyz", text + "X 1" + rest + "X 1.75" + rest + "X 2.25" + rest + "X 5" + rest);
+  write("a.xyz", xyz_of("length=0 diameter=1 mass=1 k=6 epsilon=1",
+                        "X 1" + rest + "X 1.75" + rest + "X 2.25" + rest + "X 5" + rest, 4));
   const Outcome imported = run("import a.xyz --out a");
   EXPECT_EQ(imported.exit_code, 0);
   const std::string overlaps =
       "2 pairs of rods overlap; deepest, rods 1 and 2 overlap: their axes are 0.5 apart, less than "
       "1";
   EXPECT_TRUE(imported.complains("a.xyz: cannot be run as it is: state: " + overlaps));
-  const Outcome checked = run("check a/scene.toml");
-  EXPECT_EQ(checked.exit_code, 3);
-  EXPECT_TRUE(checked.complains(overlaps));
+  EXPECT_TRUE(run("check a/scene.toml").fails(3, overlaps));
 }
 
 TEST_F(ImportCommand, TakesTheFrameThatIsAskedFor) {
-  const std::string head =
-      "1\nLattice=\"6 0 0 0 6 0 0 0 6\" Properties=species:S:1:pos:R:3:velo:R:3:orientation:R:3:"
-      "angular_velocity:R:3 length=1 mass=1 k=6 epsilon=1\nX ";
+  const std::string head = xyz_of("length=1 mass=1 k=6 epsilon=1", "X ");
   const std::string rest = " 3 3 1 0 0 1 0 0 0 1 0\n";
   write("a.xyz", head + "1" + rest + head + "2" + rest + head);
-  const Outcome cut = run("import a.xyz --out a");
-  EXPECT_EQ(cut.exit_code, 3);
-  EXPECT_TRUE(cut.complains("the 2 frames before it are whole: --frame 1 reads the last of them"));
+  EXPECT_TRUE(run("import a.xyz --out a")
+                  .fails(3, "the 2 frames before it are whole: --frame 1 reads the last of them"));
   for (const auto& [frame, place] : {std::pair("1", 2.0), {"first", 1.0}}) {
     ASSERT_EQ(run("import a.xyz --force --out a --frame " + std::string(frame)).exit_code, 0);
     EXPECT_EQ(io::read_last_frame(path("a/state.h5")).position[0][0], place);
@@ -171,18 +160,14 @@ TEST_F(ImportCommand, FoldersMayHaveAnyNameThatAFolderCanHave) {
     EXPECT_EQ(imported.exit_code, 0) << imported.err;
     EXPECT_EQ(run("run " + word + "/scene.toml --quiet").exit_code, 0) << folder;
   }
-  const Outcome outcome = run("import lines.xml --out 'a\xff'");
-  EXPECT_EQ(outcome.exit_code, 5);
-  EXPECT_TRUE(
-      outcome.complains("a\\xff: cannot be named in a scene: expected a folder whose full"));
+  EXPECT_TRUE(run("import lines.xml --out 'a\xff'")
+                  .fails(5, "a\\xff: cannot be named in a scene: expected a folder whose full"));
   EXPECT_FALSE(exists("a\xff"));
 }
 
 TEST_F(ImportCommand, WarnsOfWhatRoundingHasDone) {
   write("a.xyz",
-        "1\nLattice=\"6 0 0 0 6 0 0 0 6\" Properties=species:S:1:pos:R:3:velo:R:3:orientation:R:3:"
-        "angular_velocity:R:3 length=1 mass=1 k=6 epsilon=1\nX 1 3 3 1 0 0 0.577 0.577 0.578 1 -1 "
-        "0\n");
+        xyz_of("length=1 mass=1 k=6 epsilon=1", "X 1 3 3 1 0 0 0.577 0.577 0.578 1 -1 0\n"));
   const Outcome imported = run("import a.xyz --out a");
   EXPECT_EQ(imported.exit_code, 0);
   EXPECT_EQ(

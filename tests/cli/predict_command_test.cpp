@@ -89,11 +89,10 @@ TEST_F(PredictCommand, NamesTheBadPlaceAndPrintsNoResults) {
   expect(27, "0,1", "Lb = (missing): expected 28 columns, or 32 with La, Lb, Da, Db, found 29");
   expect(6, "0", "u1 = (0, 0, 0): expected a director that is not 0");
   expect(0, "", "id = (empty): expected a name or number");
-  const Outcome cut = run_on(std::string("\n").append(meets, 0, meets.size() - 2));
-  EXPECT_EQ(cut.exit_code, 3);
-  EXPECT_TRUE(
-      cut.complains("pairs.csv: line 2: column skip = (missing): expected 28 columns, "
-                    "or 32 with La, Lb, Da, Db, found 27"));
+  EXPECT_TRUE(run_on(std::string("\n").append(meets, 0, meets.size() - 2))
+                  .fails(3,
+                         "pairs.csv: line 2: column skip = (missing): expected 28 columns, "
+                         "or 32 with La, Lb, Da, Db, found 27"));
 }
 
 // Two spheres of diameter 1 that fly at each other meet when their centres are 1 apart; crossed
@@ -135,9 +134,8 @@ TEST_F(PredictCommand, GivesUpPairsThatTurnNearEachOtherForEver_long) {
       const Outcome outcome =
           shell("{ ulimit -t 20; exec '" NEEDLEWORK_PROGRAM "' predict pairs.csv --accuracy " +
                 accuracy + "; }");
-      EXPECT_EQ(outcome.exit_code, 3) << accuracy << ": " << pair << ": " << outcome.err;
-      EXPECT_TRUE(outcome.complains("pairs.csv: line 1: no contact by time ")) << outcome.err;
-      EXPECT_TRUE(outcome.complains(": expected a horizon that ends before")) << outcome.err;
+      EXPECT_TRUE(outcome.fails(3, "pairs.csv: line 1: no contact by time ")) << accuracy << pair;
+      EXPECT_TRUE(outcome.complains(": expected a horizon that ends before"));
       EXPECT_EQ(run_on("1,,1," + pair, "--accuracy " + accuracy).out, "1,inf,nan,nan\n");
     }
   }
@@ -147,11 +145,11 @@ TEST_F(PredictCommand, GivesUpPairsThatTurnNearEachOtherForEver_long) {
 TEST_F(PredictCommand, GivesUpAPairThatItCannotDecide_long) {
   for (const std::string accuracy : {"standard", "rigorous"}) {
     write("pairs.csv", "1,,1e300,0,0,0,1,0,0,1,0,0,0,1e300,0,0,0.1,0,0,1,0,-1,0,0,0,0,1,0\n");
-    const Outcome outcome =
-        shell("{ ulimit -t 20; exec '" NEEDLEWORK_PROGRAM "' predict pairs.csv --accuracy " +
-              accuracy + "; }");
-    EXPECT_EQ(outcome.exit_code, 3) << accuracy << ": " << outcome.err;
-    EXPECT_TRUE(outcome.complains("pairs.csv: line 1: no contact by time 0, after "));
+    EXPECT_TRUE(shell("{ ulimit -t 20; exec '" NEEDLEWORK_PROGRAM
+                      "' predict pairs.csv --accuracy " +
+                      accuracy + "; }")
+                    .fails(3, "pairs.csv: line 1: no contact by time 0, after "))
+        << accuracy;
   }
 }
 
@@ -163,10 +161,7 @@ TEST_F(PredictCommand, FindsContactsFarAwayOrRefusesToLookForThem) {
     return shell("{ ulimit -t 20; exec '" NEEDLEWORK_PROGRAM "' predict pairs.csv; }");
   };
   EXPECT_EQ(at("1e14").out, "1,100000000000000,0,0\n");
-  const Outcome too_far = at("1e17");
-  EXPECT_EQ(too_far.exit_code, 3);
-  EXPECT_TRUE(too_far.complains("pairs.csv: line 1: no contact by time 1e+17, after which"))
-      << too_far.err;
+  EXPECT_TRUE(at("1e17").fails(3, "pairs.csv: line 1: no contact by time 1e+17, after which"));
 }
 
 TEST_F(PredictCommand, WarnsOfAFileWithoutPairs) {
@@ -179,10 +174,7 @@ TEST_F(PredictCommand, WarnsOfAFileWithoutPairs) {
 }
 
 TEST_F(PredictCommand, HasAnExitCodeForEachKindOfError) {
-  const Outcome absent = run("predict absent.csv");
-  EXPECT_EQ(absent.exit_code, 5);
-  EXPECT_EQ(absent.out, "");
-  EXPECT_TRUE(absent.complains("absent.csv: cannot be read: "));
+  EXPECT_TRUE(run("predict absent.csv").fails(5, "absent.csv: cannot be read: "));
   EXPECT_EQ(run("predict .").exit_code, 5);
   EXPECT_EQ(run_on(meets, "--accuracy best").exit_code, 2);
   EXPECT_EQ(run("predict").exit_code, 2);

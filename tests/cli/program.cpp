@@ -5,20 +5,13 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
+
+#include "tests/support/whole_file.h"
 
 namespace needlework {
-namespace {
 
 namespace fs = std::filesystem;
-
-std::string contents(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-}  // namespace
+using test::bytes_of;
 
 testing::AssertionResult Outcome::complains(const std::string& part) const {
   const bool one_line = std::count(err.begin(), err.end(), '\n') == 1 && err.back() == '\n';
@@ -28,13 +21,17 @@ testing::AssertionResult Outcome::complains(const std::string& part) const {
   return testing::AssertionFailure() << "expected one line with \"" << part << "\", got:\n" << err;
 }
 
+testing::AssertionResult Outcome::fails(int code, const std::string& part) const {
+  const bool is_error = code == 2 || code == 3 || code == 5;
+  if (exit_code == code && (out.empty() || !is_error)) return complains(part);
+  return testing::AssertionFailure() << "exit code " << exit_code << ": expected " << code << '\n'
+                                     << err << out;
+}
+
 ProgramTest::ProgramTest() {
   write(small, R"(title = "Small gas"
-[needles]
-count = 50
-box = 5
-[until]
-collisions_per_needle = 10
+needles = { count = 50, box = 5 }
+until.collisions_per_needle = 10
 )");
 }
 
@@ -48,6 +45,12 @@ nlohmann::json ProgramTest::json_of(const std::string& arguments, const std::str
   const Outcome outcome = run(arguments, before);
   EXPECT_EQ(outcome.exit_code, exit_code) << arguments << '\n' << outcome.err;
   return outcome.json();
+}
+
+std::string ProgramTest::output_of(const std::string& arguments) const {
+  const Outcome outcome = run(arguments);
+  EXPECT_EQ(outcome.exit_code, 0) << arguments << '\n' << outcome.err;
+  return outcome.out;
 }
 
 std::string ProgramTest::hash_of(const std::string& arguments, const std::string& before) const {
@@ -64,8 +67,8 @@ Outcome ProgramTest::shell(const std::string& command, const std::string& out) c
       std::system(("cd '" + folder_.string() + "' && " + command + redirections).c_str());
   Outcome outcome;
   if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
-  if (out.empty()) outcome.out = contents(out_path);
-  outcome.err = contents(streams / "err");
+  if (out.empty()) outcome.out = bytes_of(out_path);
+  outcome.err = bytes_of(streams / "err");
   return outcome;
 }
 
@@ -86,7 +89,7 @@ void ProgramTest::write(const std::string& name, const std::string& text) const 
   std::ofstream(folder_ / name, std::ios::binary) << text;
 }
 
-std::string ProgramTest::read(const std::string& name) const { return contents(folder_ / name); }
+std::string ProgramTest::read(const std::string& name) const { return bytes_of(folder_ / name); }
 
 bool ProgramTest::exists(const std::string& name) const { return fs::exists(folder_ / name); }
 

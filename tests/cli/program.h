@@ -8,9 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/contains.h"
 #include "tests/support/temporary_folder.h"
 
 namespace needlework {
+
+using test::contains;
 
 /// The result of a run of the program.
 struct Outcome {
@@ -21,6 +24,9 @@ struct Outcome {
   nlohmann::json json() const { return nlohmann::json::parse(out); }
   /// Whether stderr is just this one line.
   testing::AssertionResult complains(const std::string& part) const;
+  /// The same, and whether it ended with this exit code, and with nothing on stdout if that is one
+  /// of usage, input or files.
+  testing::AssertionResult fails(int code, const std::string& part) const;
 };
 
 /// A test with an empty folder, in which the program runs, and a scene there.
@@ -35,6 +41,8 @@ class ProgramTest : public testing::Test {
   /// The one object that `needlework ARGUMENTS` prints. Another exit code fails the test.
   nlohmann::json json_of(const std::string& arguments, const std::string& before = "",
                          int exit_code = 0) const;
+  /// All that `needlework ARGUMENTS` prints. Another exit code than 0 fails the test.
+  std::string output_of(const std::string& arguments) const;
   /// The hash of a run, of `needlework ARGUMENTS --json --quiet`.
   std::string hash_of(const std::string& arguments, const std::string& before = "") const;
   /// Runs any command of the shell.

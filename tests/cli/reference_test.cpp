@@ -10,9 +10,7 @@ namespace {
 class Reference : public ProgramTest {
  protected:
   std::string printed(const std::string& form) const {
-    const Outcome outcome = run("--print-reference " + form);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    return outcome.out;
+    return output_of("--print-reference " + form);
   }
   bool installed(const std::string& program) const {
     return shell("command -v " + program + " >/dev/null").exit_code == 0;
@@ -27,9 +25,8 @@ TEST_F(Reference, DocsHoldWhatTheProgramPrints) {
 }
 
 TEST_F(Reference, KnowsItsForms) {
-  const Outcome outcome = run("--print-reference html");
-  EXPECT_EQ(outcome.exit_code, 3);
-  EXPECT_TRUE(outcome.complains("--print-reference html: expected man, markdown, bash, zsh or"));
+  EXPECT_TRUE(run("--print-reference html")
+                  .fails(3, "--print-reference html: expected man, markdown, bash, zsh or"));
 }
 
 TEST_F(Reference, ManualHasAllOptionsAndNoErrors) {
@@ -38,11 +35,9 @@ TEST_F(Reference, ManualHasAllOptionsAndNoErrors) {
   const Outcome shown = shell("MANWIDTH=80 man --warnings -E UTF-8 -l needlework.1");
   EXPECT_EQ(shown.exit_code, 0);
   EXPECT_EQ(shown.err, "");
-  for (const char* part : {"NAME", "EXIT CODES", "NEEDLEWORK SWEEP", "--member K/M",
-                           "needlework run profiles/quickstart.toml", "NEEDLEWORK_ISA"}) {
-    EXPECT_NE(shown.out.find(part), std::string::npos) << part;
-  }
-  EXPECT_EQ(shown.out.find("\\f"), std::string::npos);
+  EXPECT_TRUE(contains(shown.out, {"NAME", "EXIT CODES", "NEEDLEWORK SWEEP", "--member K/M",
+                                   "needlework run profiles/quickstart.toml", "NEEDLEWORK_ISA"}));
+  EXPECT_FALSE(contains(shown.out, "\\f"));
 }
 
 struct Completion {

@@ -20,9 +20,8 @@ TEST_F(ReportCommand, KeepsAnExistingPageUnlessForced) {
   EXPECT_TRUE(page.starts_with("<!doctype html>"));
 
   write("page.html", "mine");
-  const Outcome refused = run("report run.h5 -o page.html");
-  EXPECT_EQ(refused.exit_code, 5);
-  EXPECT_TRUE(refused.complains("page.html: exists already: expected a new file, or --force"));
+  EXPECT_TRUE(run("report run.h5 -o page.html")
+                  .fails(5, "page.html: exists already: expected a new file, or --force"));
   EXPECT_EQ(read("page.html"), "mine");
   EXPECT_EQ(run("report run.h5 -o page.html --force").exit_code, 0);
   EXPECT_EQ(read("page.html"), page);
@@ -31,12 +30,10 @@ TEST_F(ReportCommand, KeepsAnExistingPageUnlessForced) {
 TEST_F(ReportCommand, NamesFilesThatItDoesNotTakeAndWritesNothing) {
   make_run();
   const std::vector<std::string> before = files();
-  const Outcome kind = run("report run.h5 small.toml -o page.html");
-  EXPECT_EQ(kind.exit_code, 3);
-  EXPECT_TRUE(kind.complains("small.toml: expected a run (.h5), the summary.h5 of a sweep, or"));
-  const Outcome absent = run("report absent.h5 -o page.html");
-  EXPECT_EQ(absent.exit_code, 5);
-  EXPECT_TRUE(absent.complains("absent.h5: cannot be read: expected a file that exists"));
+  EXPECT_TRUE(run("report run.h5 small.toml -o page.html")
+                  .fails(3, "small.toml: expected a run (.h5), the summary.h5 of a sweep, or"));
+  EXPECT_TRUE(run("report absent.h5 -o page.html")
+                  .fails(5, "absent.h5: cannot be read: expected a file that exists"));
   EXPECT_EQ(run("report run.h5").exit_code, 2);
   EXPECT_EQ(run("report -o page.html").exit_code, 2);
   EXPECT_EQ(run("report run.h5 -o page.html --needles 0").exit_code, 2);

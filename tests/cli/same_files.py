@@ -11,22 +11,16 @@ from pathlib import Path
 import h5py
 
 SCENE = """
-[needles]
-count = 200
-box = 6.4
-[collisions]
-epsilon = 0.8
-tc_relative = 1e-3
-[engine]
-team = "all"
-[until]
-energy_ratio = 0.2
+needles = { count = 200, box = 6.4 }
+collisions = { epsilon = 0.8, tc_relative = 1e-3 }
+engine.team = "all"
+until.energy_ratio = 0.2
 [output]
 frames = 4
 events = true
-observables = ["fields", "profiles", "flow_order", "distributions", "alignment", "velocity_moments",
-               "temperature_by_axis", "pair_correlation", "structure_factor", "displacement",
-               "time_correlation", "collision_statistics"]
+observables = ["fields", "profiles", "flow_order", "distributions", "alignment",
+               "velocity_moments", "temperature_by_axis", "pair_correlation", "structure_factor",
+               "displacement", "time_correlation", "collision_statistics"]
 """
 
 

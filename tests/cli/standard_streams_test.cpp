@@ -45,9 +45,8 @@ TEST_F(StandardStreams, WhatNobodyCouldReadIsRefusedBeforeItIsDone) {
          {"run small.toml --json --out json.h5", "resume whole.h5 --json", "info whole.h5",
           "check small.toml", "theory small.toml", "serve", "bench --list", "help", "--version",
           "run --help"}) {
-      const Outcome outcome = run_with(closed, arguments);
-      EXPECT_EQ(outcome.exit_code, 5) << closed << arguments;
-      EXPECT_TRUE(outcome.complains("standard output: is closed: expected it to be open"))
+      EXPECT_TRUE(run_with(closed, arguments)
+                      .fails(5, "standard output: is closed: expected it to be open"))
           << closed << arguments;
     }
     EXPECT_FALSE(exists("json.h5"));

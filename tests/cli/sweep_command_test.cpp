@@ -21,14 +21,9 @@ using nlohmann::json;
 class SweepCommand : public ProgramTest {
  protected:
   SweepCommand() {
-    write("cooling.toml", R"(
-[needles]
-count = 60
-box = 5
-[collisions]
-tc_relative = 1e-3
-[until]
-energy_ratio = 0.2
+    write("cooling.toml", R"(needles = { count = 60, box = 5 }
+collisions.tc_relative = 1e-3
+until.energy_ratio = 0.2
 )");
     write("grid.toml", R"(scene = "cooling.toml"
 seeds = [1, 2, 3]
@@ -123,12 +118,8 @@ TEST_F(SweepCommand, SumsUpWhatWallsAndDrivingHaveDone) {
 until.time = 3
 driving.kicks = { every = 0.5, translational = 1, rotational = 1 }
 driving.andersen = { rate = 0.5, temperature = 2 }
-[[walls]]
-axis = "z"
-side = "both"
-epsilon = 0.7
-[collisions]
-tc_relative = 1e-3
+walls = [{ axis = "z", side = "both", epsilon = 0.7 }]
+collisions.tc_relative = 1e-3
 )");
   write("one.toml", "scene = \"driven.toml\"\nseeds = [4]\n");
   const json results = result("one.toml --out one")["points"][0]["results"];
@@ -170,8 +161,7 @@ TEST_F(SweepCommand, SummaryDoesNotDependOnThreadsOrShares_long) {
 TEST_F(SweepCommand, SummaryAloneSumsUpWhatIsThere) {
   result("grid.toml --out part --member 1/2");
   const Outcome partial = run("sweep --json --summary grid.toml --out part");
-  EXPECT_EQ(partial.exit_code, 0);
-  EXPECT_TRUE(partial.complains("warning: 3 of 6 members are missing"));
+  EXPECT_TRUE(partial.fails(0, "warning: 3 of 6 members are missing"));
   EXPECT_EQ(partial.json()["computed"], 0);
   EXPECT_EQ(
       partial.json()["points"][0]["seeds"].size() + partial.json()["points"][1]["seeds"].size(),
@@ -182,20 +172,16 @@ TEST_F(SweepCommand, SummaryAloneSumsUpWhatIsThere) {
 
 TEST_F(SweepCommand, SummaryNeedsSomethingToSumUp) {
   const Outcome absent = run("sweep --summary grid.toml --out absent");
-  EXPECT_EQ(absent.exit_code, 3);
-  EXPECT_TRUE(absent.complains("--out absent: expected the folder of a sweep"));
+  EXPECT_TRUE(absent.fails(3, "--out absent: expected the folder of a sweep"));
   EXPECT_FALSE(exists("absent"));
   std::filesystem::create_directory(path("empty"));
   const Outcome empty = run("sweep --summary grid.toml --out empty");
-  EXPECT_EQ(empty.exit_code, 3);
-  EXPECT_TRUE(empty.complains("expected members to sum up: none is finished"));
+  EXPECT_TRUE(empty.fails(3, "expected members to sum up: none is finished"));
   EXPECT_FALSE(exists("empty/summary.h5"));
 }
 
 TEST_F(SweepCommand, AnEmptyShareIsNoShare) {
-  const Outcome outcome = run("sweep grid.toml --out share --member \"\"");
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_TRUE(outcome.complains("--member : expected K/M"));
+  EXPECT_TRUE(run("sweep grid.toml --out share --member \"\"").fails(2, "--member : expected K/M"));
   EXPECT_FALSE(exists("share"));
 }
 
@@ -221,7 +207,7 @@ TEST_F(SweepCommand, GoesOnAfterSignals_long) {
         run_and_signal("sweep --json --threads 2 " + out, "ls " + signal + "/*.h5.part", signal);
     if (signal != "KILL") {
       EXPECT_EQ(stopped.exit_code, 75) << signal;
-      EXPECT_NE(stopped.err.find("the same command continues with them"), std::string::npos);
+      EXPECT_TRUE(contains(stopped.err, "the same command continues with them"));
       EXPECT_EQ(count_of_files(signal, ".lock"), 0u);
       // The members that were running are saved.
       EXPECT_GT(count_of_files(signal, ".h5.part.checkpoint"), 0u);
@@ -252,7 +238,7 @@ TEST_F(SweepCommand, KeepsAMemberThatAnotherProgramHasOpen_long) {
   const Outcome refused = run("sweep long.toml --out locked");
   close(file);
   EXPECT_EQ(refused.exit_code, 5);
-  EXPECT_NE(refused.err.find("has the file open for writing"), std::string::npos) << refused.err;
+  EXPECT_TRUE(contains(refused.err, "has the file open for writing"));
   EXPECT_TRUE(read(name) == before);
   EXPECT_TRUE(exists(name + ".checkpoint"));
   EXPECT_EQ(result("long.toml --out locked")["missing"], 0);
@@ -273,9 +259,8 @@ TEST_F(SweepCommand, TwoSweepsOfOneFolderDoNotRunTheSame_long) {
 TEST_F(SweepCommand, KeepsToTheGridOfItsFolder) {
   result("grid.toml --out here");
   write("grid.toml", read("grid.toml") + "\"needles.k\" = 2\n");
-  const Outcome refused = run("sweep grid.toml --out here");
-  EXPECT_EQ(refused.exit_code, 3);
-  EXPECT_TRUE(refused.complains("--out here: is of another grid, scene or version"));
+  EXPECT_TRUE(run("sweep grid.toml --out here")
+                  .fails(3, "--out here: is of another grid, scene or version"));
   EXPECT_EQ(result("grid.toml --out here --force")["computed"], 6);
 
   // What is the same in both is kept.
@@ -284,29 +269,24 @@ TEST_F(SweepCommand, KeepsToTheGridOfItsFolder) {
   EXPECT_EQ(result("more.toml --out here --force")["computed"], 2);
 
   write("here/epsilon=0.9,seed=1.h5", "no such thing");
-  const Outcome damaged = run("sweep more.toml --out here");
-  EXPECT_EQ(damaged.exit_code, 3);
-  EXPECT_TRUE(damaged.complains("here/epsilon=0.9,seed=1.h5: expected a member of this grid"));
+  EXPECT_TRUE(run("sweep more.toml --out here")
+                  .fails(3, "here/epsilon=0.9,seed=1.h5: expected a member of this grid"));
   EXPECT_EQ(result("more.toml --out here --force")["computed"], 1);
 }
 
 // Inelastic pairs collapse sooner or later without the t_c rule.
 TEST_F(SweepCommand, AFailedMemberIsNamedAndAffectsNoOther) {
   write("failing.toml", R"(seeds = [1, 2]
-[needles]
-count = 200
-box = 6
-[until]
-collisions_per_needle = 100
+needles = { count = 200, box = 6 }
+until.collisions_per_needle = 100
 [parameters]
 "collisions.epsilon" = [1, 0.3]
 )");
   const Outcome outcome = run("sweep --json --quiet failing.toml --out f");
   EXPECT_EQ(outcome.exit_code, 4);
-  for (const char* part : {"member epsilon=0.3,seed=1: ", "member epsilon=0.3,seed=2: ",
-                           "collapse of needles ", "saved in f/epsilon=0.3,seed=1.failed.h5"}) {
-    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
-  }
+  EXPECT_TRUE(
+      contains(outcome.err, {"member epsilon=0.3,seed=1: ", "member epsilon=0.3,seed=2: ",
+                             "collapse of needles ", "saved in f/epsilon=0.3,seed=1.failed.h5"}));
   EXPECT_EQ(outcome.json()["failed"], json({"epsilon=0.3,seed=1", "epsilon=0.3,seed=2"}));
   EXPECT_EQ(outcome.json()["points"][0]["seeds"].size(), 2u);
   EXPECT_EQ(outcome.json()["points"][0]["results"]["collisions"]["mean"], 10000);
@@ -315,7 +295,7 @@ collisions_per_needle = 100
   const Outcome again = run("sweep --json --quiet failing.toml --out f");
   EXPECT_EQ(again.exit_code, 4);
   EXPECT_EQ(again.json()["computed"], 0);
-  EXPECT_NE(again.err.find("member epsilon=0.3,seed=2: failed before"), std::string::npos);
+  EXPECT_TRUE(contains(again.err, "member epsilon=0.3,seed=2: failed before"));
 }
 
 TEST_F(SweepCommand, ErrorsOfUsageAndInputAreReported) {
@@ -330,10 +310,7 @@ TEST_F(SweepCommand, ErrorsOfUsageAndInputAreReported) {
       {"grid.toml --out cooling.toml", 5, "--out cooling.toml: cannot be made"},
       {"grid.toml --out a --isa bogus", 3, "--isa bogus: expected auto"}};
   for (const auto& [arguments, code, message] : cases) {
-    const Outcome outcome = run("sweep --quiet " + arguments);
-    EXPECT_EQ(outcome.exit_code, code) << arguments;
-    EXPECT_TRUE(outcome.complains(message));
-    EXPECT_EQ(outcome.out, "");
+    EXPECT_TRUE(run("sweep --quiet " + arguments).fails(code, message)) << arguments;
   }
 }
 
@@ -355,6 +332,11 @@ class SweepOverRanks : public SweepCommand {
     if (run("sweep grid.toml --out probe", launcher).err.find("built with MPI") !=
         std::string::npos)
       GTEST_SKIP() << "the program was built without MPI";
+  }
+
+  static void expect_once(const std::string& text, const std::string& part) {
+    EXPECT_TRUE(contains(text, part));
+    EXPECT_EQ(text.find(part), text.rfind(part)) << text;
   }
 
   const std::string launcher =
@@ -426,23 +408,19 @@ TEST_F(SweepOverRanks, NoOtherCommandRunsOnSeveral_long) {
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_EQ(outcome.out, "");
     const std::string message = "started as 2 processes by MPI: expected one: --threads N";
-    const auto first = outcome.err.find(message);
-    ASSERT_NE(first, std::string::npos) << outcome.err;
-    EXPECT_EQ(outcome.err.find(message, first + 1), std::string::npos) << outcome.err;
-    EXPECT_NE(outcome.err.find("needlework sweep"), std::string::npos) << outcome.err;
+    expect_once(outcome.err, message);
+    EXPECT_TRUE(contains(outcome.err, "needlework sweep"));
   }
   EXPECT_FALSE(exists("twice.h5"));
   EXPECT_EQ(run("run small.toml --quiet", "OMPI_COMM_WORLD_SIZE=1").exit_code, 0);
-  EXPECT_NE(run("run --help", launcher).out.find("SCENE"), std::string::npos);
+  EXPECT_TRUE(contains(run("run --help", launcher).out, "SCENE"));
 }
 
 TEST_F(SweepOverRanks, ReportAnErrorOnce) {
   const Outcome outcome = run("sweep grid.toml", launcher);
   EXPECT_EQ(outcome.exit_code, 3);
   const std::string message = "needlework: grid.toml: out is missing";
-  const auto first = outcome.err.find(message);
-  ASSERT_NE(first, std::string::npos) << outcome.err;
-  EXPECT_EQ(outcome.err.find(message, first + 1), std::string::npos) << outcome.err;
+  expect_once(outcome.err, message);
 }
 
 }  // namespace

@@ -15,10 +15,8 @@ namespace {
 using TheoryCommand = ProgramTest;
 
 TEST_F(TheoryCommand, PrintsOneJsonObjectWithAllDigits) {
-  const Outcome outcome =
-      run("theory --epsilon 0.8 --k 6 --t-rot0 0 --tau 100 --tau 1 --tau 1e8 --json");
-  ASSERT_EQ(outcome.exit_code, 0);
-  const auto json = nlohmann::ordered_json::parse(outcome.out);
+  const auto json = nlohmann::ordered_json::parse(
+      output_of("theory --epsilon 0.8 --k 6 --t-rot0 0 --tau 100 --tau 1 --tau 1e8 --json"));
   std::vector<std::string> keys;
   for (const auto& item : json.items()) keys.push_back(item.key());
   EXPECT_EQ(keys, (std::vector<std::string>{"epsilon", "beta", "k", "c", "k_star", "tau", "t_tr",
@@ -59,7 +57,7 @@ TEST_F(TheoryCommand, SaysHowElasticNeedlesDiffuse) {
   EXPECT_EQ(json["diffusion"]["d_rot"], expected.rotational_diffusion);
   EXPECT_EQ(json["diffusion"]["velocity_decay"], expected.velocity_decay);
   EXPECT_EQ(json["diffusion"]["angular_velocity_decay"], expected.angular_velocity_decay);
-  EXPECT_NE(run("theory --epsilon 1 --k 6 --density 8").out.find("D_rot ="), std::string::npos);
+  EXPECT_TRUE(contains(run("theory --epsilon 1 --k 6 --density 8").out, "D_rot ="));
   EXPECT_TRUE(
       run("theory --epsilon 1 --k 6 --density 0 --json").json()["diffusion"]["d"].is_null());
   for (const char* other :
@@ -99,11 +97,8 @@ TEST_F(TheoryCommand, StartsWithEqualTemperatures) {
 }
 
 TEST_F(TheoryCommand, PrintsATable) {
-  const Outcome outcome = run("theory --epsilon 0.8 --k 6 --t-rot0 0 --tau 1");
-  EXPECT_EQ(outcome.exit_code, 0);
-  for (const char* part : {"epsilon 0.8", "1.037732671", "4.360700345", "tau", "1.426099077"}) {
-    EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " in\n" << outcome.out;
-  }
+  EXPECT_TRUE(contains(output_of("theory --epsilon 0.8 --k 6 --t-rot0 0 --tau 1"),
+                       {"epsilon 0.8", "1.037732671", "4.360700345", "tau", "1.426099077"}));
 }
 
 TEST_F(TheoryCommand, SimulatesTheBoltzmannEquation) {
@@ -127,7 +122,7 @@ TEST_F(TheoryCommand, SimulatesTheBoltzmannEquation) {
             boltzmann::simulate(settings, taus).samples[1].t_rot.value);
   EXPECT_FALSE(single.contains("encounters"));
   const std::string table = run(arguments + "encounters").out;
-  EXPECT_NE(table.find("are not the first of their pair"), std::string::npos) << table;
+  EXPECT_TRUE(contains(table, "are not the first of their pair"));
 }
 
 TEST_F(TheoryCommand, SimulatesTheBoltzmannEquationOfMixtures) {
@@ -166,10 +161,8 @@ TEST_F(TheoryCommand, SimulatesTheBoltzmannEquationOfMixtures) {
   const auto encounters = run(arguments + "encounters --json mixture.toml").json();
   EXPECT_NEAR(encounters["tc"].get<double>(), 1e-2 / rate * std::sqrt(1.5), 1e-12);
   const std::string table = run(arguments + "encounters mixture.toml").out;
-  for (const char* part : {"2 species", "all needles", "\nlong\n", "\nshort\n", "long-short",
-                           "are not the first of their pair"}) {
-    EXPECT_NE(table.find(part), std::string::npos) << part << " in\n" << table;
-  }
+  EXPECT_TRUE(contains(table, {"2 species", "all needles", "\nlong\n", "\nshort\n", "long-short",
+                               "are not the first of their pair"}));
 
   for (const auto& [options, message] :
        {std::pair("--boltzmann single --epsilon 0.5",
@@ -215,9 +208,9 @@ TEST_F(TheoryCommand, RefusesWhatItDoesNotDescribe) {
         {"driving.kicks = { every = 1, translational = 1, rotational = 1 }\n", "[driving]"},
         {"driving.andersen = { rate = 1, temperature = 1 }\n", "[driving]"}}) {
     write("pushed.toml", gas + more);
-    const Outcome outcome = run("theory pushed.toml");
-    EXPECT_EQ(outcome.exit_code, 3) << more;
-    EXPECT_TRUE(outcome.complains("pushed.toml: " + std::string(name) + ": expected none"));
+    EXPECT_TRUE(
+        run("theory pushed.toml").fails(3, "pushed.toml: " + std::string(name) + ": expected none"))
+        << more;
   }
 }
 

@@ -28,7 +28,7 @@ TEST_F(ViewCommand, WritesPngAndSvgByTheEnding) {
   EXPECT_EQ(viewed.out + viewed.err, "");
   EXPECT_TRUE(is_png("a.png"));
   EXPECT_EQ(run("view a.h5 --out a.svg").exit_code, 0);
-  EXPECT_NE(read("a.svg").find(">20 needles</title>"), std::string::npos);
+  EXPECT_TRUE(contains(read("a.svg"), ">20 needles</title>"));
   EXPECT_EQ(run("view a.h5 -o a.gif").exit_code, 2);
   EXPECT_TRUE(run("view a.h5 -o a.gif")
                   .complains("--out a.gif: expected a name that ends in .png or .svg"));
@@ -39,11 +39,10 @@ TEST_F(ViewCommand, ShowsTheFrameThatIsAskedFor) {
   make_frames();
   for (const auto& [choice, time] : {std::pair{"first", 0}, {"1", 1}, {"last", 2}, {"2", 2}}) {
     ASSERT_EQ(run(fmt::format("view a.h5 -o a.svg --force --frame {}", choice)).exit_code, 0);
-    EXPECT_NE(read("a.svg").find(fmt::format(">time {}<", time)), std::string::npos) << choice;
+    EXPECT_TRUE(contains(read("a.svg"), fmt::format(">time {}<", time))) << choice;
   }
-  const Outcome beyond = run("view a.h5 -o b.svg --frame 3");
-  EXPECT_EQ(beyond.exit_code, 3);
-  EXPECT_TRUE(beyond.complains("--frame 3: expected a number from 0 to 2, as there are 3 frames"));
+  EXPECT_TRUE(run("view a.h5 -o b.svg --frame 3")
+                  .fails(3, "--frame 3: expected a number from 0 to 2, as there are 3 frames"));
   EXPECT_FALSE(exists("b.svg"));
 }
 
@@ -72,15 +71,14 @@ TEST_F(ViewCommand, ShowsWallsWhereTheyAreAtTheTimeOfTheFrame) {
   EXPECT_NE(floor("0"), floor("1"));
   EXPECT_GT(floor("1"), 20);         // at its highest
   EXPECT_NEAR(floor("2"), 0, 0.11);  // at its lowest, where the box is drawn to
-  EXPECT_NE(read("a.svg").find(">moving wall<"), std::string::npos);
+  EXPECT_TRUE(contains(read("a.svg"), ">moving wall<"));
 }
 
 TEST_F(ViewCommand, NumbersThePicturesOfASeries) {
   make_frames();
   ASSERT_EQ(run("view a.h5 -o a.svg --frames all").exit_code, 0);
   for (const int frame : {0, 1, 2}) {
-    EXPECT_NE(read(fmt::format("a-{:05}.svg", frame)).find(fmt::format(">time {}<", frame)),
-              std::string::npos);
+    EXPECT_TRUE(contains(read(fmt::format("a-{:05}.svg", frame)), fmt::format(">time {}<", frame)));
   }
   EXPECT_FALSE(exists("a.svg"));
 }
@@ -88,9 +86,8 @@ TEST_F(ViewCommand, NumbersThePicturesOfASeries) {
 TEST_F(ViewCommand, KeepsExistingFilesUnlessForced) {
   make_frames();
   write("a.png", "mine");
-  const Outcome refused = run("view a.h5 -o a.png");
-  EXPECT_EQ(refused.exit_code, 5);
-  EXPECT_TRUE(refused.complains("a.png: exists already: expected a new file, or --force"));
+  EXPECT_TRUE(
+      run("view a.h5 -o a.png").fails(5, "a.png: exists already: expected a new file, or --force"));
   EXPECT_EQ(read("a.png"), "mine");
   EXPECT_EQ(run("view a.h5 -o a.png --force").exit_code, 0);
   EXPECT_TRUE(is_png("a.png"));
@@ -107,16 +104,15 @@ TEST_F(ViewCommand, ColoursAsAskedInBothSpellings) {
   ASSERT_EQ(run("view a.h5 -o a.svg --colour spin").exit_code, 0);
   ASSERT_EQ(run("view a.h5 -o b.svg --color spin").exit_code, 0);
   EXPECT_EQ(read("a.svg"), read("b.svg"));
-  EXPECT_NE(read("a.svg").find(">spin / "), std::string::npos);
-  const Outcome unknown = run("view a.h5 -o c.svg --colour mass");
-  EXPECT_EQ(unknown.exit_code, 2);
-  EXPECT_TRUE(unknown.complains("mass: expected one of speed, spin, vx, vy, vz, flow-x"));
+  EXPECT_TRUE(contains(read("a.svg"), ">spin / "));
+  EXPECT_TRUE(run("view a.h5 -o c.svg --colour mass")
+                  .fails(2, "mass: expected one of speed, spin, vx, vy, vz, flow-x"));
 }
 
 TEST_F(ViewCommand, HasTheSizeThatIsAskedFor) {
   make_frames();
   ASSERT_EQ(run("view a.h5 -o a.svg --width 640 --height 360").exit_code, 0);
-  EXPECT_NE(read("a.svg").find("viewBox=\"0 0 640 360\""), std::string::npos);
+  EXPECT_TRUE(contains(read("a.svg"), "viewBox=\"0 0 640 360\""));
   for (const char* size : {"--width 10", "--height 1000000", "--width nan", "--elevation 91"}) {
     EXPECT_EQ(run(fmt::format("view a.h5 -o b.png {}", size)).exit_code, 2) << size;
   }
@@ -129,9 +125,7 @@ TEST_F(ViewCommand, WritesNothingAfterAnError) {
        {std::tuple{"absent.h5 -o a.png", 5, "absent.h5: No such file"},
         {"text.h5 -o a.png", 5, "text.h5: not an HDF5 file"},
         {"text.h5 -o x/a.png", 5, "x/a.png: cannot be written: expected a folder that exists"}}) {
-    const Outcome outcome = run(std::string("view ") + arguments);
-    EXPECT_EQ(outcome.exit_code, exit_code) << arguments;
-    EXPECT_TRUE(outcome.complains(message)) << outcome.err;
+    EXPECT_TRUE(run(std::string("view ") + arguments).fails(exit_code, message)) << arguments;
   }
   EXPECT_EQ(run("view text.h5").exit_code, 2);
   EXPECT_EQ(files(), (std::vector<std::string>{small, "text.h5"}));
@@ -140,10 +134,9 @@ TEST_F(ViewCommand, WritesNothingAfterAnError) {
 TEST_F(ViewCommand, ReportsAFullDisk) {
   make_frames();
   // A limit on the size of files stands for a full disk.
-  const Outcome full =
-      shell(fmt::format("(trap '' XFSZ; ulimit -f 1; {} view a.h5 -o a.png)", NEEDLEWORK_PROGRAM));
-  EXPECT_EQ(full.exit_code, 5);
-  EXPECT_TRUE(full.complains("a.png: cannot be written completely"));
+  EXPECT_TRUE(
+      shell(fmt::format("(trap '' XFSZ; ulimit -f 1; {} view a.h5 -o a.png)", NEEDLEWORK_PROGRAM))
+          .fails(5, "a.png: cannot be written completely"));
   EXPECT_FALSE(exists("a.png"));
 }
 

@@ -8,11 +8,11 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <limits>
 
 #include "src/runs/load_checkpoint.h"
 #include "tests/fuzz/small_run.h"
+#include "tests/support/whole_file.h"
 
 using namespace needlework;
 
@@ -24,13 +24,8 @@ struct Base {
   std::string mark;
 };
 
-std::string bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 Base base_of(const std::string& output) {
-  const std::string bytes = bytes_of(output + ".checkpoint");
+  const std::string bytes = test::bytes_of(output + ".checkpoint");
   const std::size_t mark = bytes.find('\n') + 1;  // the first line; see src/runs/checkpoint.cpp
   const std::size_t content = mark + 16;          // behind size and checksum
   fuzz::require(bytes.size() > content);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tests/io/planned_run.h"
+#include "tests/support/contains.h"
 
 namespace needlework::io {
 namespace {
@@ -99,7 +100,7 @@ TEST_F(Continuing, AFileCanBeReadMeanwhile) {
   waitpid(child, &status, WUNTRACED);
   ASSERT_TRUE(WIFSTOPPED(status)) << status;
   expect_complete_rows(read_contents(file("a.h5")), full, {small.steps, {6, 12, 42}});
-  EXPECT_NE(describe(file("a.h5")).find("5 particles, 6 frames"), std::string::npos);
+  EXPECT_TRUE(test::contains(describe(file("a.h5")), "5 particles, 6 frames"));
   kill(child, SIGCONT);
   waitpid(child, &status, 0);
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;

@@ -281,6 +281,11 @@ TEST_F(DynamoMixtures, AreWrittenAndReadBitForBit) {
     if (of_spheres) {
       for (auto& u : state.orientation) u = {0, 0, 1};
       for (auto& w : state.angular_velocity) w = {};
+    } else {
+      state.orientation[0] = {0, 0, -1};
+      state.orientation[1] = {-0.0, 0x1.fffffffffffffp-1, 1e-9};
+      state.orientation[2] = {0, 0, 1 - 0x1p-53};
+      for (const int i : {0, 1, 2}) state.angular_velocity[i] = {3, 0, -0.0};
     }
     const bool walled = round % 4 > 1;
     if (walled) {
@@ -288,7 +293,10 @@ TEST_F(DynamoMixtures, AreWrittenAndReadBitForBit) {
       state.periodic[2] = false;
       for (auto& centre : state.position) centre[2] = 0.5 * state.box[2];  // moved without rounding
     }
-    const Configuration read = read_dynamo(put(round % 7 ? "a.xml" : "a.xml.gz", {state}, written));
+    const Configuration read = read_dynamo(put(round % 7   ? "a.xml"
+                                               : round % 2 ? "a.xml.gz"
+                                                           : "a.xml.bz2",
+                                               {state}, written));
     expect_same(read.state, state);
     EXPECT_EQ(read.state.species, state.species);
     EXPECT_EQ(read.state.periodic, state.periodic);

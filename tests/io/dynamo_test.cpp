@@ -376,37 +376,5 @@ TEST_F(Dynamo, FilesThatExplodeAreRefused) {
             path + ": 1001 bytes: expected at most 1000");
 }
 
-TEST_F(Dynamo, WhatIsWrittenIsReadBitForBit) {
-  Frame frame;
-  frame.state = make_state(200, 5);
-  frame.state.orientation[0] = {0, 0, -1};
-  frame.state.orientation[1] = {-0.0, 0x1.fffffffffffffp-1, 1e-9};
-  frame.state.orientation[2] = {0, 0, 1 - 0x1p-53};
-  for (int i : {0, 1, 2}) frame.state.angular_velocity[i] = {3, 0, -0.0};
-  Material material;
-  std::mt19937_64 random(11);
-  std::uniform_real_distribution<double> uniform(0.5, 2);
-  for (int i = 0; i < 100; ++i) {
-    material.length = {uniform(random)};
-    material.mass = {uniform(random)};
-    material.k = {uniform(random) * std::pow(10, i % 9 - 4)};
-    material.epsilon = {uniform(random) / 2};
-    if (i > 0) frame.state.resize(2);
-    const std::string name = i % 2 ? "a.xml" : "a.xml.bz2";
-    const auto writer = write_dynamo(file(name), true, material);
-    writer->add(frame);
-    writer->publish();
-    const Configuration read = read_dynamo(file(name));
-    EXPECT_EQ(read.material.length, material.length);
-    EXPECT_EQ(read.material.mass, material.mass);
-    EXPECT_EQ(read.material.k, material.k) << i;
-    EXPECT_EQ(read.material.epsilon, material.epsilon);
-    State expected = frame.state;
-    expected.image.clear();
-    expected.id.clear();
-    expect_same(read.state, expected);
-  }
-}
-
 }  // namespace
 }  // namespace needlework::io

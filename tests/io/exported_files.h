@@ -11,6 +11,7 @@
 #include "src/io/formats/read_configuration.h"
 #include "tests/io/complaints.h"
 #include "tests/io/support.h"
+#include "tests/support/whole_file.h"
 
 namespace needlework::io {
 
@@ -20,6 +21,14 @@ inline const Material material{.names = {"needles"},
                                .k = {3.3},
                                .epsilon = {0.9},
                                .beta = {-0.25}};
+
+// A dump of LAMMPS of one frame; `boxes` are the bounds along each axis.
+inline std::string lammps_dump(int atoms, const std::string& columns, const std::string& rows,
+                               const std::string& boundary = "pp pp pp",
+                               const std::string& boxes = "0 8\n0 8\n0 8\n") {
+  return "ITEM: TIMESTEP\n7\nITEM: NUMBER OF ATOMS\n" + std::to_string(atoms) +
+         "\nITEM: BOX BOUNDS " + boundary + "\n" + boxes + "ITEM: ATOMS " + columns + "\n" + rows;
+}
 
 class Formats : public InFolder {
  protected:
@@ -34,11 +43,7 @@ class Formats : public InFolder {
     writer->publish();
     return file(name);
   }
-  std::string text_of_file(const std::string& name) const {
-    std::stringstream text;
-    text << std::ifstream(file(name), std::ios::binary).rdbuf();
-    return text.str();
-  }
+  std::string text_of_file(const std::string& name) const { return test::bytes_of(file(name)); }
   std::string complaint(const std::string& text) const {
     std::ofstream(file("bad"), std::ios::binary) << text;
     const std::string message = message_of<InputError>([&] { read_configuration(file("bad")); });

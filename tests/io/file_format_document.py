@@ -16,39 +16,21 @@ import h5py
 
 SWEEP = """
 seeds = [1, 2, 3]
+needles = { count = 20, box = 5 }
+until.time = 1
+driving.kicks = { every = 0.5, translational = 1, rotational = 1 }
+walls = [{ axis = "z", side = "low" }, { axis = "z", side = "high" }]
 [parameters]
 "collisions.epsilon" = [0.9, 0.8]
 "engine.search" = ["capsules", "linked-cells"]
-[needles]
-count = 20
-box = 5
-[until]
-time = 1
-[driving]
-kicks = { every = 0.5, translational = 1, rotational = 1 }
-[[walls]]
-axis = "z"
-side = "low"
-[[walls]]
-axis = "z"
-side = "high"
 """
 
 MIXTURE = """
 needles.box = 6
 collisions.epsilon = 0.9
 until.time = 1
-[[species]]
-name = "a"
-count = 30
-[[species]]
-name = "b"
-count = 20
-length = 2
-[[species]]
-name = "c"
-count = 10
-mass = 3
+species = [{ name = "a", count = 30 }, { name = "b", count = 20, length = 2 },
+           { name = "c", count = 10, mass = 3 }]
 """
 
 WALLED = """
@@ -58,13 +40,8 @@ output.events = true
 output.observables = ["wall_profiles", "centre_of_mass"]
 driving.kicks = { every = 0.3, translational = 1, rotational = 1 }
 driving.andersen = { rate = 1, temperature = 1 }
-[[walls]]
-axis = "z"
-side = "both"
-motion = { amplitude = 0.1, frequency = 1, phase = 0 }
-[[walls]]
-axis = "x"
-side = "both"
+walls = [{ axis = "z", side = "both", motion = { amplitude = 0.1, frequency = 1, phase = 0 } },
+         { axis = "x", side = "both" }]
 """
 
 
@@ -79,10 +56,7 @@ CHANNEL = """
 needles = { count = 30, box = 6, seed = 3 }
 until.time = 1
 forces.gravity = [0.1, 0, 0]
-[[walls]]
-axis = "z"
-side = "both"
-temperature = 1
+walls = [{ axis = "z", side = "both", temperature = 1 }]
 """
 
 
@@ -269,25 +243,14 @@ def main(program, source):
         os.symlink(os.path.join(source, "profiles"), os.path.join(folder, "profiles"))
         problems += problems_of_examples(document, "file-format.md", folder)
         problems += problems_of_examples(observables, "observables.md", folder)
-        with open(os.path.join(folder, "grid.toml"), "w", encoding="utf-8") as file:
-            file.write(SWEEP)
+        for name, scene in {"grid": SWEEP, "mixture": MIXTURE, "walled": WALLED, "rods": RODS,
+                            "sliding": SLIDING, "channel": CHANNEL}.items():
+            with open(os.path.join(folder, f"{name}.toml"), "w", encoding="utf-8") as file:
+                file.write(scene)
+            if name != "grid":
+                run(["./needlework", "run", f"{name}.toml", "--out", f"{name}.h5", "--quiet"], folder)
         run(["./needlework", "sweep", "grid.toml", "--out", "sweep", "--threads", "1", "--quiet"],
             folder)
-        with open(os.path.join(folder, "mixture.toml"), "w", encoding="utf-8") as file:
-            file.write(MIXTURE)
-        run(["./needlework", "run", "mixture.toml", "--out", "mixture.h5", "--quiet"], folder)
-        with open(os.path.join(folder, "walled.toml"), "w", encoding="utf-8") as file:
-            file.write(WALLED)
-        run(["./needlework", "run", "walled.toml", "--out", "walled.h5", "--quiet"], folder)
-        with open(os.path.join(folder, "rods.toml"), "w", encoding="utf-8") as file:
-            file.write(RODS)
-        run(["./needlework", "run", "rods.toml", "--out", "rods.h5", "--quiet"], folder)
-        with open(os.path.join(folder, "sliding.toml"), "w", encoding="utf-8") as file:
-            file.write(SLIDING)
-        run(["./needlework", "run", "sliding.toml", "--out", "sliding.h5", "--quiet"], folder)
-        with open(os.path.join(folder, "channel.toml"), "w", encoding="utf-8") as file:
-            file.write(CHANNEL)
-        run(["./needlework", "run", "channel.toml", "--out", "channel.h5", "--quiet"], folder)
         runs = rows_of(document, "Files of runs")
         walls, of_gravity = [], []
         for row in rows_of(document, "Files with walls"):

@@ -16,6 +16,7 @@
 #include "tests/io/dynamo_text.h"
 #include "tests/io/exported_files.h"
 #include "tests/io/support.h"
+#include "tests/support/contains.h"
 #include "tests/support/wall.h"
 
 namespace needlework::io {
@@ -71,10 +72,8 @@ TEST_F(Formats, MixturesAreReadBack) {
 
 TEST_F(Formats, TypesOfDumpsAreSpecies) {
   const auto read = [&](const char* rows) {
-    std::ofstream(file("a.dump"))
-        << "ITEM: TIMESTEP\n7\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS pp pp pp\n0 8\n0 8\n0 "
-           "8\nITEM: ATOMS type diameter x y z vx vy vz mux muy muz omegax omegay omegaz\n"
-        << rows;
+    std::ofstream(file("a.dump")) << lammps_dump(
+        3, "type diameter x y z vx vy vz mux muy muz omegax omegay omegaz", rows);
     return read_configuration(file("a.dump"));
   };
   const std::string rest = " 1 2 3 4 5 6 1 0 0 0 7 8\n";
@@ -121,10 +120,9 @@ TEST_F(Formats, NeedlesAreDescribedAsRods) {
   const auto xyz = numbers("a.xyz", 14), dump = numbers("a.dump", 17);
   ASSERT_EQ(xyz.size(), state.size());
   ASSERT_EQ(dump.size(), state.size());
-  EXPECT_NE(text_of_file("a.xyz").find(":orientation:R:4:aspherical_shape:R:3 "),
-            std::string::npos);
-  EXPECT_NE(text_of_file("a.dump").find(" quatw quati quatj quatk shapex shapey shapez "),
-            std::string::npos);
+  EXPECT_TRUE(test::contains(text_of_file("a.xyz"), ":orientation:R:4:aspherical_shape:R:3 "));
+  EXPECT_TRUE(
+      test::contains(text_of_file("a.dump"), " quatw quati quatj quatk shapex shapey shapez "));
   for (std::size_t i = 0; i < state.size(); ++i) {
     expect_rod(i, xyz[i][3], xyz[i][0], xyz[i][1], xyz[i][2]);
     EXPECT_EQ(std::vector(xyz[i].begin() + 4, xyz[i].end()),
@@ -258,10 +256,8 @@ TEST_F(Formats, BadDumpsAreNamed) {
 // it follow their paths.
 TEST_F(Formats, DumpsMayHoldScaledAndUnwrappedPositions) {
   const auto text = [](const std::string& columns, const std::string& first) {
-    return "ITEM: TIMESTEP\n7\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n-4 4\n0 9\n1 "
-           "11\nITEM: ATOMS id " +
-           columns + " vx vy vz mux muy muz omegax omegay omegaz\n1 " + first +
-           " 4 5 6 1 0 0 0 7 8\n";
+    return lammps_dump(1, "id " + columns + " vx vy vz mux muy muz omegax omegay omegaz",
+                       "1 " + first + " 4 5 6 1 0 0 0 7 8\n", "pp pp pp", "-4 4\n0 9\n1 11\n");
   };
   const auto read = [&](const std::string& columns, const std::string& first) {
     std::ofstream(file("a.dump")) << text(columns, first);
@@ -323,12 +319,12 @@ TEST_F(Formats, SayWhichAxesArePeriodicAndWhatEndsTheOthers) {
     }
     EXPECT_EQ(read.material.gravity, walled().gravity);
   }
-  EXPECT_NE(text_of_file("a.xyz").find(" pbc=\"T F F\""), std::string::npos);
-  EXPECT_NE(text_of_file("a.dump").find("BOX BOUNDS pp ff ff\n"), std::string::npos);
+  EXPECT_TRUE(test::contains(text_of_file("a.xyz"), " pbc=\"T F F\""));
+  EXPECT_TRUE(test::contains(text_of_file("a.dump"), "BOX BOUNDS pp ff ff\n"));
   Material open = walled();
   open.walls = {wall("z", "low"), wall("y", "high")};
   put("b.dump", {state}, open);
-  EXPECT_NE(text_of_file("b.dump").find("BOX BOUNDS pp sf fs\n"), std::string::npos);
+  EXPECT_TRUE(test::contains(text_of_file("b.dump"), "BOX BOUNDS pp sf fs\n"));
   const Configuration back = read_configuration(file("b.dump"));
   EXPECT_EQ(back.state.periodic, state.periodic);
   EXPECT_EQ(back.material.gravity, open.gravity);
@@ -336,22 +332,21 @@ TEST_F(Formats, SayWhichAxesArePeriodicAndWhatEndsTheOthers) {
   EXPECT_EQ(back.material.walls[0].axis + back.material.walls[0].side, "yhigh");
   EXPECT_EQ(back.material.walls[1].axis + back.material.walls[1].side, "zlow");
   ASSERT_EQ(back.notes.size(), 1u);
-  EXPECT_NE(back.notes[0].find("epsilon = 1"), std::string::npos);
+  EXPECT_TRUE(test::contains(back.notes[0], "epsilon = 1"));
   put("c.xyz", {make_state(3)});
-  EXPECT_NE(text_of_file("c.xyz").find(" pbc=\"T T T\" length=1.7"), std::string::npos);
-  EXPECT_EQ(text_of_file("c.xyz").find("walls"), std::string::npos);
+  EXPECT_TRUE(test::contains(text_of_file("c.xyz"), " pbc=\"T T T\" length=1.7"));
+  EXPECT_FALSE(test::contains(text_of_file("c.xyz"), "walls"));
 }
 
 // Forces of a dump are those of gravity if they give all needles the same acceleration.
 TEST_F(Formats, DumpsHaveGravityAsForces) {
   std::string left_out;
   const auto gravity = [&](const std::string& boundary, const char* first, const char* second) {
-    std::ofstream(file("a.dump"))
-        << "ITEM: TIMESTEP\n7\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS " << boundary
-        << "\n0 9\n0 9\n0 9\nITEM: ATOMS id type mass k x y z vx vy vz mux muy muz omegax omegay "
-           "omegaz fx fy fz\n"
-        << "1 1 2 6 1 2 3 4 5 6 1 0 0 0 7 8 " << first << "\n"
-        << "2 2 4 6 4 2 3 4 5 6 1 0 0 0 7 8 " << second << "\n";
+    std::ofstream(file("a.dump")) << lammps_dump(
+        2, "id type mass k x y z vx vy vz mux muy muz omegax omegay omegaz fx fy fz",
+        "1 1 2 6 1 2 3 4 5 6 1 0 0 0 7 8 " + std::string(first) +
+            "\n2 2 4 6 4 2 3 4 5 6 1 0 0 0 7 8 " + second + "\n",
+        boundary, "0 9\n0 9\n0 9\n");
     const Configuration read = read_configuration(file("a.dump"));
     left_out = read.notes.empty() ? "" : read.notes.back();
     return read.material.gravity;
@@ -361,19 +356,18 @@ TEST_F(Formats, DumpsHaveGravityAsForces) {
   EXPECT_EQ(gravity("pp pp ff", "0 0 -3", "0 0 -6"), (Vector{0, 0, -1.5}));
   EXPECT_EQ(gravity("pp pp fs", "0 0 -3", "0 0 -5.99998"), (Vector{0, 0, -1.5}));
   EXPECT_EQ(gravity("pp pp fs", "0 0 -3", "0 0 -3"), Vector{});  // not the same acceleration
-  EXPECT_EQ(left_out.find("[0"), std::string::npos) << left_out;
+  EXPECT_FALSE(test::contains(left_out, "[0"));
   EXPECT_EQ(gravity("pp pp fs", "1 0 -3", "2 0 -6"), Vector{});  // along a periodic axis
-  EXPECT_NE(left_out.find("[0.5, 0, -1.5], along x too"), std::string::npos) << left_out;
+  EXPECT_TRUE(test::contains(left_out, "[0.5, 0, -1.5], along x too"));
   EXPECT_EQ(gravity("pp pp pp", "0 0 -3", "0 0 -6"), Vector{});
-  EXPECT_NE(left_out.find("[0, 0, -1.5], along z too"), std::string::npos) << left_out;
+  EXPECT_TRUE(test::contains(left_out, "[0, 0, -1.5], along z too"));
 }
 
 // Along an axis with walls, the box begins at 0.
 TEST_F(Formats, PositionsAreCountedFromTheLowWall) {
-  std::ofstream(file("a.dump"))
-      << "ITEM: TIMESTEP\n7\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp ff\n-4 4\n0 9\n1 "
-         "11\nITEM: ATOMS id x y z ix iy iz vx vy vz mux muy muz omegax omegay omegaz\n"
-         "1 -1 2 3 1 1 1 4 5 6 1 0 0 0 7 8\n";
+  std::ofstream(file("a.dump")) << lammps_dump(
+      1, "id x y z ix iy iz vx vy vz mux muy muz omegax omegay omegaz",
+      "1 -1 2 3 1 1 1 4 5 6 1 0 0 0 7 8\n", "pp pp ff", "-4 4\n0 9\n1 11\n");
   const State read = read_configuration(file("a.dump")).state;
   EXPECT_EQ(read.position[0], (std::array<double, 3>{-1, 2, 2}));
   EXPECT_EQ(read.image[0], (std::array<std::int32_t, 3>{1, 1, 0}));
@@ -395,18 +389,18 @@ TEST_F(Formats, BoundsEncloseWhatIsBeyondTheEdges) {
     EXPECT_EQ(read.state.position, state.position) << name;
     const std::string text = text_of_file(name);
     const std::string bounds = fmt::format("{} {}", -0.25 - half, edge + 2.5 + half);
-    EXPECT_NE(text.find("\n" + bounds), text.npos) << name;
-    EXPECT_NE(text.find(fmt::format("\n0 {}", state.box[1])), text.npos) << name;
+    EXPECT_TRUE(test::contains(text, "\n" + bounds)) << name;
+    EXPECT_TRUE(test::contains(text, fmt::format("\n0 {}", state.box[1]))) << name;
   }
-  EXPECT_NE(text_of_file("a.data").find(fmt::format(" edges={}", fmt::join(state.box, ","))),
-            std::string::npos);
+  EXPECT_TRUE(
+      test::contains(text_of_file("a.data"), fmt::format(" edges={}", fmt::join(state.box, ","))));
   state.position[3][2] = state.position[4][2] = 1;
   for (const char* name : {"b.dump", "b.data"}) {
     put(name, {state}, open);
-    EXPECT_EQ(text_of_file(name).find("edge"), std::string::npos) << name;
+    EXPECT_FALSE(test::contains(text_of_file(name), "edge")) << name;
   }
-  EXPECT_NE(complaint(replaced(text_of_file("a.data"), " edges=", " edges=-")).find("edges = -"),
-            std::string::npos);
+  EXPECT_TRUE(test::contains(complaint(replaced(text_of_file("a.data"), " edges=", " edges=-")),
+                             "edges = -"));
 }
 
 TEST_F(Formats, BoxesWithTiltsOfZeroAreRectangular) {

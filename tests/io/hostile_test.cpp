@@ -12,17 +12,14 @@
 
 #include "src/io/contents.h"
 #include "tests/io/support.h"
+#include "tests/support/contains.h"
+#include "tests/support/whole_file.h"
 
 namespace needlework::io {
 namespace {
 
 using hdf5::Handle;
 using hdf5::Shape;
-
-std::string bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 void write_bytes(const std::string& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary).write(bytes.data(), std::ssize(bytes));
@@ -56,15 +53,6 @@ std::vector<std::string> verdicts(const std::string& path) {
 
 class Hostile : public InFolder {
  protected:
-  // A file of two needles, as another program might have made it, changed by `edit`.
-  std::string make(const std::function<void(HandMade&)>& edit) {
-    const std::string path = file("made.h5");
-    HandMade made(path);
-    made.put_needles("all", 1);
-    made.put("/particles/all/box/edges", {3}, {10, 11, 12});
-    edit(made);
-    return path;
-  }
   std::string make_run() {
     const std::string path = file("run.h5");
     Writer writer(path, true, make_scene(2, true), {});
@@ -80,15 +68,8 @@ class Hostile : public InFolder {
   static constexpr const char* positions = "/particles/all/position/value";
 };
 
-template <class Error>
-std::string complaint(const std::string& path) {
-  std::string message = message_of<Error>([&] { read_last_frame(path); });
-  EXPECT_TRUE(message.starts_with(path + ": ")) << message;
-  return message.substr(std::min(message.size(), path.size() + 2));
-}
-
 TEST_F(Hostile, FilesThatAreCutShortAreRefused) {
-  const std::string whole = bytes_of(make_run()), path = file("cut.h5");
+  const std::string whole = test::bytes_of(make_run()), path = file("cut.h5");
   std::mt19937_64 random(1);
   for (int n = 0; n < 30; ++n) {
     write_bytes(path, whole.substr(0, random() % whole.size()));
@@ -98,7 +79,7 @@ TEST_F(Hostile, FilesThatAreCutShortAreRefused) {
 
 // Half of the flips are near the beginning and the end, where HDF5 has its own data.
 TEST_F(Hostile, FlippedBitsEndNoReader) {
-  const std::string whole = bytes_of(make_run()), path = file("flipped.h5");
+  const std::string whole = test::bytes_of(make_run()), path = file("flipped.h5");
   std::mt19937_64 random(2);
   int refused = 0;
   for (int n = 0; n < 80; ++n) {
@@ -128,7 +109,7 @@ TEST_F(Hostile, AttributesWhoseSizeOverflowsAreRefused) {
     const std::string texts(8 * before, 'x');
     H5Awrite(attribute.get(), text.get(), texts.data());
   });
-  std::string bytes = bytes_of(path);
+  std::string bytes = test::bytes_of(path);
   const std::string mark(reinterpret_cast<const char*>(&before), sizeof before);
   int found = 0;
   for (auto at = bytes.find(mark); at != bytes.npos; at = bytes.find(mark, at + 1), ++found) {
@@ -210,14 +191,14 @@ TEST_F(Hostile, CompressedBombsAreRefused_long) {
 TEST_F(Hostile, NoOtherFileIsOpened) {
   const std::string other = file("other.h5"), pipe = file("pipe");
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  std::filesystem::copy_file(make([](HandMade&) {}), other);
+  std::filesystem::copy_file(make(), other);
   for (const std::string& target : {other, pipe}) {
     const std::string direct = make([&](HandMade& made) {
       made.remove("/particles/all/position");
       H5Lcreate_external(target.c_str(), "/particles/all/position", made.get(),
                          "/particles/all/position", H5P_DEFAULT, H5P_DEFAULT);
     });
-    EXPECT_EQ(complaint<InputError>(direct),
+    EXPECT_EQ(complaint_about<InputError>(direct),
               "/particles/all/position: a link that leads out of the file, or to itself: expected "
               "a dataset");
     const std::string indirect = make([&](HandMade& made) {
@@ -226,10 +207,10 @@ TEST_F(Hostile, NoOtherFileIsOpened) {
       H5Lcreate_soft("/away/particles/all/position", made.get(), "/particles/all/position",
                      H5P_DEFAULT, H5P_DEFAULT);
     });
-    EXPECT_EQ(complaint<InputError>(indirect),
+    EXPECT_EQ(complaint_about<InputError>(indirect),
               "/particles/all/position: a link that leads out of the file, or to itself: expected "
               "a dataset");
-    EXPECT_NE(describe(indirect).find("away"), std::string::npos);
+    EXPECT_TRUE(test::contains(describe(indirect), "away"));
 
     const std::string expected = std::string(positions) +
                                  ": a dataset whose values are in other files: expected them in "
@@ -245,10 +226,10 @@ TEST_F(Hostile, NoOtherFileIsOpened) {
     };
     const Handle is_virtual(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "");
     H5Pset_virtual(is_virtual.get(), space.get(), target.c_str(), positions, space.get());
-    EXPECT_EQ(complaint<InputError>(make_with(is_virtual)), expected);
+    EXPECT_EQ(complaint_about<InputError>(make_with(is_virtual)), expected);
     const Handle external(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "");
     H5Pset_external(external.get(), target.c_str(), 0, H5F_UNLIMITED);
-    EXPECT_EQ(complaint<InputError>(make_with(external)), expected);
+    EXPECT_EQ(complaint_about<InputError>(make_with(external)), expected);
   }
 }
 
@@ -263,7 +244,7 @@ TEST_F(Hostile, FiltersThatNeedAPluginAreNamed) {
     H5Dclose(H5Dcreate2(made.get(), positions, H5T_IEEE_F64LE, space.get(), H5P_DEFAULT,
                         layout.get(), H5P_DEFAULT));
   });
-  EXPECT_EQ(complaint<InputError>(path),
+  EXPECT_EQ(complaint_about<InputError>(path),
             std::string(positions) +
                 ": stored with filter 32008 of HDF5, for which a plugin would be needed: expected "
                 "gzip or another filter that HDF5 itself has (h5repack can change it)");

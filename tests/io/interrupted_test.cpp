@@ -98,6 +98,10 @@ TEST_F(Continuing, AKillAtAnyMomentLosesNothing) {
       kill(child, SIGKILL);
       waitpid(child, nullptr, 0);
       expect_complete_rows(read_contents(path), full, *checkpoint);
+      EXPECT_FALSE(describe(path).empty());
+      if (checkpoint->position.frames == 0) continue;
+      const int last = read_last_frame(path).image.at(0)[0];
+      EXPECT_GE(last + 1, static_cast<int>(checkpoint->position.frames));
     }
     resume_to_end(path, large, *checkpoint);
     expect_same(full, read_contents(path));

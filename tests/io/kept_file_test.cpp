@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "tests/io/planned_run.h"
+#include "tests/support/contains.h"
 
 namespace needlework::io {
 namespace {
@@ -58,11 +59,11 @@ TEST_F(Continuing, WhatIsNotTheFileOfTheRunIsKept) {
                 "to be continued");
   beyond = checkpoint.position;
   beyond.samples = 100;
-  EXPECT_NE(message(scene, run, beyond).find("/series/"), std::string::npos);
+  EXPECT_TRUE(test::contains(message(scene, run, beyond), "/series/"));
   beyond = checkpoint.position;
   beyond.events = 100;
-  EXPECT_NE(message(scene, run, beyond).find("/events/arms: 35 rows: expected at least 100"),
-            std::string::npos);
+  EXPECT_TRUE(
+      test::contains(message(scene, run, beyond), "/events/arms: 35 rows: expected at least 100"));
 
   Scene other = scene;
   other.text = "[needles]\ncount = 8\n";
@@ -76,7 +77,7 @@ TEST_F(Continuing, WhatIsNotTheFileOfTheRunIsKept) {
   EXPECT_EQ(message(other, run, {}), path + ": /parameters/epsilon: 0.8: expected 0.9");
   other = scene;
   other.needles.count = 6;
-  EXPECT_NE(message(other, run, {}).find("[5][3]: expected"), std::string::npos);
+  EXPECT_TRUE(test::contains(message(other, run, {}), "[5][3]: expected"));
   other = scene;
   other.output.events = false;
   EXPECT_EQ(message(other, run, {}),
@@ -86,19 +87,17 @@ TEST_F(Continuing, WhatIsNotTheFileOfTheRunIsKept) {
 
   RunInfo observed = run;
   observed.series[0].name = "c";
-  EXPECT_NE(message(scene, observed, {}).find("/series/c: missing: expected a group"),
-            std::string::npos);
+  EXPECT_TRUE(test::contains(message(scene, observed, {}), "/series/c: missing: expected a group"));
   observed = run;
   observed.series[0].fields[0].shape[0].size = 4;
-  EXPECT_NE(message(scene, observed, {}).find("/series/a/x/value: shape [11][3]: expected [11][4]"),
-            std::string::npos);
+  EXPECT_TRUE(test::contains(message(scene, observed, {}),
+                             "/series/a/x/value: shape [11][3]: expected [11][4]"));
   observed = run;
   observed.series[0].fields[0].kind = SeriesField::Kind::count;
-  EXPECT_NE(message(scene, observed, {}).find("type float64: expected int64"), std::string::npos);
+  EXPECT_TRUE(test::contains(message(scene, observed, {}), "type float64: expected int64"));
   observed = run;
   observed.series[1].fields[0].values[1] = 3;
-  EXPECT_NE(message(scene, observed, {}).find("/series/b/edges, value 1: 0.333"),
-            std::string::npos);
+  EXPECT_TRUE(test::contains(message(scene, observed, {}), "/series/b/edges, value 1: 0.333"));
   observed = run;
   observed.epoch_length = 0.75;
   EXPECT_EQ(message(scene, observed, {}), path + ": /parameters/epoch_length: 0.5: expected 0.75");
@@ -135,7 +134,7 @@ TEST_F(Continuing, OtherFilesAreKept) {
   const auto expect_refused = [&](const std::string& reason) {
     const std::string before = std::filesystem::is_regular_file(path) ? bytes(path) : "";
     const std::string message = message_in_child(become_nobody, [&] { resume(path, small, {}); });
-    EXPECT_NE(message.find(path + ": " + reason), std::string::npos) << message;
+    EXPECT_TRUE(test::contains(message, path + ": " + reason));
     EXPECT_EQ(std::filesystem::is_regular_file(path) ? bytes(path) : "", before);
   };
   std::filesystem::permissions(folder_, std::filesystem::perms::all);

@@ -14,12 +14,7 @@ COLUMNS = ("id type x y z ix iy iz vx vy vz mux muy muz omegax omegay omegaz dia
 SCENE = """
 needles.box = [6, 7, 8]
 until.collisions_per_needle = 5
-[[species]]
-name = "rod"
-count = 50
-length = 1.7
-mass = 2.5
-k = 3.3
+species = [{ name = "rod", count = 50, length = 1.7, mass = 2.5, k = 3.3 }]
 """
 SCRIPT = f"""
 units lj

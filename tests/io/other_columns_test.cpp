@@ -4,6 +4,7 @@
 
 #include "tests/io/complaints.h"
 #include "tests/io/exported_files.h"
+#include "tests/support/contains.h"
 
 namespace needlework::io {
 namespace {
@@ -109,7 +110,7 @@ TEST_F(OtherColumns, AnyFrameIsRead) {
     const std::string cut = text.substr(0, text.size() - 6);
     EXPECT_EQ(read(cut, 1).state.velocity[0][0], 1);
     const std::string message = message_of<InputError>([&] { read(cut); });
-    EXPECT_NE(message.find("cut short in line "), message.npos) << message;
+    EXPECT_TRUE(test::contains(message, "cut short in line "));
     EXPECT_TRUE(
         message.ends_with("; the 2 frames before it are whole: --frame 1 reads the last of "
                           "them"))
@@ -117,7 +118,7 @@ TEST_F(OtherColumns, AnyFrameIsRead) {
     // And before it.
     const std::string shorter = text.substr(0, text.rfind('\n', text.size() - 2) + 1);
     const std::string other = message_of<InputError>([&] { read(shorter); });
-    EXPECT_NE(other.find("cut short after line "), other.npos) << other;
+    EXPECT_TRUE(test::contains(other, "cut short after line "));
     EXPECT_TRUE(other.ends_with("--frame 1 reads the last of them")) << other;
   }
 }

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <fstream>
 #include <functional>
-#include <iterator>
 #include <new>
 #include <string>
 #include <utility>
@@ -17,6 +16,7 @@
 #include "tests/io/contents.h"
 #include "tests/io/disk.h"
 #include "tests/io/support.h"
+#include "tests/support/whole_file.h"
 
 namespace needlework::io {
 
@@ -223,12 +223,8 @@ inline bool is_killed(const std::string& folder, int at, const std::function<voi
   return message == "killed";
 }
 
-class Continuing : public InFolder {
- protected:
-  std::string bytes(const std::string& path) const {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
+struct Continuing : InFolder {
+  static std::string bytes(const std::string& path) { return test::bytes_of(path); }
 };
 
 }  // namespace needlework::io

@@ -12,19 +12,13 @@
 #include "src/io/in_child_process.h"
 #include "src/machine/stop_request.h"
 #include "tests/io/support.h"
+#include "tests/support/contains.h"
 
 namespace needlework::io {
 namespace {
 
 class ReadInChildProcess : public InFolder {
  protected:
-  std::string make() {
-    const std::string path = file("made.h5");
-    HandMade made(path);
-    made.put_needles("all", 3);
-    made.put("/particles/all/box/edges", {3}, {10, 11, 12});
-    return path;
-  }
   // What a child that does this is said to have done, without the name of the file.
   template <class Error, class Read>
   std::string end_of(Read read) {
@@ -74,8 +68,7 @@ TEST_F(ReadInChildProcess, IsStoppedWithItsChild) {
 TEST_F(ReadInChildProcess, AfterACrashEveryRequestFails) {
   ReaderProcess process("f.h5", {1u << 30, 5}, [] { return reading([] { raise(SIGBUS); }); });
   for (int n = 0; n < 2; ++n) {
-    EXPECT_NE(message_of<IoError>([&] { process.ask("anything"); }).find("signal 7"),
-              std::string::npos);
+    EXPECT_TRUE(test::contains(message_of<IoError>([&] { process.ask("anything"); }), "signal 7"));
   }
 }
 

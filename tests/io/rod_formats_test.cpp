@@ -9,6 +9,7 @@
 #include "src/io/vtkhdf.h"
 #include "tests/io/complaints.h"
 #include "tests/io/exported_files.h"
+#include "tests/support/contains.h"
 #include "tests/support/wall.h"
 
 namespace needlework::io {
@@ -87,8 +88,8 @@ TEST_F(RodFormats, SayHowToDrawThem) {
   put("a.xyz", {one}, rods_and_spheres);
   EXPECT_EQ(ending("a.xyz", "Lattice", 4), (std::vector{0.2, 0.2, 1.7, 0.0}));
   put("a.dump", {one}, rods_and_spheres);
-  EXPECT_NE(text_of_file("a.dump").find("shapex shapey shapez length diameter mass k\n"),
-            std::string::npos);
+  EXPECT_TRUE(
+      test::contains(text_of_file("a.dump"), "shapex shapey shapez length diameter mass k\n"));
   EXPECT_EQ(ending("a.dump", "ITEM: ATOMS", 7), (std::vector{0.4, 0.4, 3.4, 1.7, 0.4, 2.5, 3.3}));
   one.species = {1};
   put("b.dump", {one}, rods_and_spheres);
@@ -99,12 +100,9 @@ TEST_F(RodFormats, SayHowToDrawThem) {
 
 TEST_F(RodFormats, DumpsWithoutAColumnOfLengthsHaveNeedles) {
   const auto read = [&](const std::string& columns, const std::string& values) {
-    std::ofstream(file("a.dump"))
-        << "ITEM: TIMESTEP\n7\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n0 8\n0 8\n0 "
-           "8\nITEM: ATOMS "
-        << columns << " x y z vx vy vz mux muy muz omegax omegay omegaz\n"
-        << values << " 1 2 3 4 5 6 1 0 0 0 7 8\n"
-        << values << " 4 2 3 4 5 6 1 0 0 0 7 8\n";
+    std::ofstream(file("a.dump")) << lammps_dump(
+        2, columns + " x y z vx vy vz mux muy muz omegax omegay omegaz",
+        values + " 1 2 3 4 5 6 1 0 0 0 7 8\n" + values + " 4 2 3 4 5 6 1 0 0 0 7 8\n");
     return read_configuration(file("a.dump")).material;
   };
   EXPECT_EQ(read("diameter", "1.5").length, std::vector{1.5});
@@ -140,11 +138,11 @@ TEST_F(RodFormats, OfLinesHaveTheRadiusOfTubes) {
   EXPECT_NEAR(std::hypot(rod[3] - rod[0], rod[4] - rod[1], rod[5] - rod[2]), 1.7, 1e-14);
   EXPECT_EQ(points[12], points[15]);  // of a sphere, the line is a point
   put("a.pvd", {state}, rods_and_spheres);
-  EXPECT_NE(text_of_file("a/frame-00000.vtu").find("Name=\"radius\" NumberOfComponents=\"1\""),
-            std::string::npos);
+  EXPECT_TRUE(test::contains(text_of_file("a/frame-00000.vtu"),
+                             "Name=\"radius\" NumberOfComponents=\"1\""));
   state.species.clear();
   put("b.pvd", {state});
-  EXPECT_EQ(text_of_file("b/frame-00000.vtu").find("radius"), std::string::npos);
+  EXPECT_FALSE(test::contains(text_of_file("b/frame-00000.vtu"), "radius"));
 }
 
 TEST_F(RodFormats, ThatCannotHoldThemSayWhy) {
@@ -182,7 +180,7 @@ TEST_F(RodFormats, OfDynamoHaveSpheres) {
   for (std::size_t i = 0; i < state.size(); ++i)
     EXPECT_NEAR(read.state.position[i][2], state.position[i][2], 1e-14);
   const std::string text = text_of_file("a.xml");
-  EXPECT_EQ(text.find("Orientation"), text.npos);
+  EXPECT_FALSE(test::contains(text, "Orientation"));
   expect_complaints(
       text,
       {{"Type=\"Point\"", "Type=\"Lines\" InertiaConstant=\"1\"",

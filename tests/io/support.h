@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -21,6 +22,59 @@ namespace needlework::io {
 
 using test::message_of;
 
+/// A file made by hand, dataset by dataset, as any other program might have.
+class HandMade {
+ public:
+  explicit HandMade(const std::string& path)
+      : path_(path),
+        file_(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, path) {}
+
+  /// Writes a dataset, its groups made on the way; `type` is that of the file.
+  void put(const std::string& name, const hdf5::Shape& shape, const std::vector<double>& values,
+           hid_t type = H5T_IEEE_F64LE) {
+    const hdf5::Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, path_);
+    H5Pset_create_intermediate_group(links.get(), 1);
+    const hdf5::Handle space(
+        shape.empty() ? H5Screate(H5S_SCALAR)
+                      : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
+        H5Sclose, path_);
+    if (H5Lexists(file_.get(), name.c_str(), H5P_DEFAULT) > 0) {
+      H5Ldelete(file_.get(), name.c_str(), H5P_DEFAULT);
+    }
+    const hdf5::Handle data(H5Dcreate2(file_.get(), name.c_str(), type, space.get(), links.get(),
+                                       H5P_DEFAULT, H5P_DEFAULT),
+                            H5Dclose, path_);
+    hdf5::check(
+        H5Dwrite(data.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+        path_);
+  }
+
+  void remove(const std::string& name) { H5Ldelete(file_.get(), name.c_str(), H5P_DEFAULT); }
+
+  /// Writes `frames` frames of two needles in /particles/GROUP, without box, id and image. Only the
+  /// last frame is valid.
+  void put_needles(const std::string& group, hsize_t frames, hid_t type = H5T_IEEE_F64LE) {
+    put_frames(group + "/position", frames, {0, 10, 11, -0.5, 20, 12}, type);
+    put_frames(group + "/velocity", frames, {1, 2, 3, 4, 5, 6}, type);
+    put_frames(group + "/orientation", frames, {1, 0, 0, 0, 0.6, 0.8}, type);
+    put_frames(group + "/angular_velocity", frames, {0, 1, 2, 3, 0.8, -0.6}, type);
+  }
+
+  void put_frames(const std::string& name, hsize_t frames, const std::vector<double>& last,
+                  hid_t type = H5T_IEEE_F64LE) {
+    std::vector<double> values((frames - 1) * last.size(), 99);
+    values.insert(values.end(), last.begin(), last.end());
+    put("/particles/" + name + "/value", {frames, last.size() / 3, 3}, values, type);
+  }
+
+  hid_t get() const { return file_.get(); }
+
+ private:
+  hdf5::Session session_;
+  std::string path_;
+  hdf5::Handle file_;
+};
+
 /// A folder that is gone after the test.
 class InFolder : public testing::Test {
  protected:
@@ -32,6 +86,17 @@ class InFolder : public testing::Test {
       names.push_back(entry.path().filename().string());
     }
     return names;
+  }
+
+  /// A file of `frames` frames of two needles in /particles/GROUP with a plain box, as another
+  /// program might have made it, changed by `edit`.
+  std::string make(const std::function<void(HandMade&)>& edit = {}, hsize_t frames = 1,
+                   const std::string& group = "all", hid_t type = H5T_IEEE_F64LE) const {
+    HandMade made(file("made.h5"));
+    made.put_needles(group, frames, type);
+    made.put("/particles/" + group + "/box/edges", {3}, {10, 11, 12});
+    if (edit) edit(made);
+    return file("made.h5");
   }
 
   test::TemporaryFolder temporary_;
@@ -115,6 +180,14 @@ inline void expect_same(const State& a, const State& b) {
   EXPECT_EQ(a.id, b.id);
 }
 
+/// What readers of frames say against a file, without its name.
+template <class Error>
+std::string complaint_about(const std::string& path) {
+  const std::string message = message_of<Error>([&] { read_last_frame(path); });
+  EXPECT_TRUE(message.starts_with(path + ": ")) << message;
+  return message.substr(std::min(message.size(), path.size() + 2));
+}
+
 /// All numbers of a dataset.
 inline std::vector<double> read_numbers(const std::string& path, const std::string& dataset) {
   const hdf5::Session session;
@@ -127,58 +200,5 @@ inline std::vector<double> read_numbers(const std::string& path, const std::stri
               path);
   return values;
 }
-
-/// A file made by hand, dataset by dataset, as any other program might have.
-class HandMade {
- public:
-  explicit HandMade(const std::string& path)
-      : path_(path),
-        file_(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, path) {}
-
-  /// Writes a dataset, its groups made on the way; `type` is that of the file.
-  void put(const std::string& name, const hdf5::Shape& shape, const std::vector<double>& values,
-           hid_t type = H5T_IEEE_F64LE) {
-    const hdf5::Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, path_);
-    H5Pset_create_intermediate_group(links.get(), 1);
-    const hdf5::Handle space(
-        shape.empty() ? H5Screate(H5S_SCALAR)
-                      : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
-        H5Sclose, path_);
-    if (H5Lexists(file_.get(), name.c_str(), H5P_DEFAULT) > 0) {
-      H5Ldelete(file_.get(), name.c_str(), H5P_DEFAULT);
-    }
-    const hdf5::Handle data(H5Dcreate2(file_.get(), name.c_str(), type, space.get(), links.get(),
-                                       H5P_DEFAULT, H5P_DEFAULT),
-                            H5Dclose, path_);
-    hdf5::check(
-        H5Dwrite(data.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
-        path_);
-  }
-
-  void remove(const std::string& name) { H5Ldelete(file_.get(), name.c_str(), H5P_DEFAULT); }
-
-  /// Writes `frames` frames of two needles in /particles/GROUP, without box, id and image. Only the
-  /// last frame is valid.
-  void put_needles(const std::string& group, hsize_t frames, hid_t type = H5T_IEEE_F64LE) {
-    put_frames(group + "/position", frames, {0, 10, 11, -0.5, 20, 12}, type);
-    put_frames(group + "/velocity", frames, {1, 2, 3, 4, 5, 6}, type);
-    put_frames(group + "/orientation", frames, {1, 0, 0, 0, 0.6, 0.8}, type);
-    put_frames(group + "/angular_velocity", frames, {0, 1, 2, 3, 0.8, -0.6}, type);
-  }
-
-  void put_frames(const std::string& name, hsize_t frames, const std::vector<double>& last,
-                  hid_t type = H5T_IEEE_F64LE) {
-    std::vector<double> values((frames - 1) * last.size(), 99);
-    values.insert(values.end(), last.begin(), last.end());
-    put("/particles/" + name + "/value", {frames, last.size() / 3, 3}, values, type);
-  }
-
-  hid_t get() const { return file_.get(); }
-
- private:
-  hdf5::Session session_;
-  std::string path_;
-  hdf5::Handle file_;
-};
 
 }  // namespace needlework::io

@@ -8,6 +8,7 @@
 #include "src/picture/needle_values.h"
 #include "src/picture/stroke_font.h"
 #include "tests/picture/states.h"
+#include "tests/support/contains.h"
 
 namespace needlework::picture {
 namespace {
@@ -61,7 +62,7 @@ TEST(NeedlePictures, ShowEachSpeciesInItsLength) {
   ASSERT_EQ(drawn.size(), 2);
   const double first = length(drawn[0]), second = length(drawn[1]);
   EXPECT_NEAR(std::max(first, second) / std::min(first, second), 3, 1e-9);
-  EXPECT_NE(drawing.description.find("of lengths 1, 3 in a"), std::string::npos);
+  EXPECT_TRUE(test::contains(drawing.description, "of lengths 1, 3 in a"));
 }
 
 TEST(NeedlePictures, ShowFarNeedlesFirstThinnerAndFainter) {
@@ -105,9 +106,8 @@ TEST(NeedlePictures, SayWhatTheColoursMeanAndTheTime) {
   for (const Words& w : drawing.words) words.push_back(w.text);
   EXPECT_EQ(words, (std::vector<std::string>{"speed / 0.5 (rms)", "0", "1", "2", "time 12.5",
                                              "1 needle"}));
-  EXPECT_NE(drawing.description.find("at time 12.5; colours are speed / 0.5 (rms) from 0 to 2"),
-            std::string::npos)
-      << drawing.description;
+  EXPECT_TRUE(test::contains(drawing.description,
+                             "at time 12.5; colours are speed / 0.5 (rms) from 0 to 2"));
 }
 
 TEST(NeedlePictures, UseOnlyWordsThatTheFontHas) {
@@ -142,7 +142,7 @@ TEST(Drawings, OfSvgEscapeTextsAndWhatXmlCannotHold) {
   const std::string text = svg(drawing);
   ASSERT_TRUE(document.load_string(text.c_str()));
   EXPECT_STREQ(document.select_node("//title").node().text().get(), "a <b> & \"c\"");
-  EXPECT_EQ(text.find('\a'), std::string::npos);
+  EXPECT_FALSE(test::contains(text, "\a"));
   EXPECT_STREQ(document.select_node("//text/@text-anchor").attribute().value(), "end");
 }
 

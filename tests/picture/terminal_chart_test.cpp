@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/support/contains.h"
+
 namespace needlework::picture {
 namespace {
 
@@ -93,23 +95,20 @@ TEST(TerminalChart, LeavesAGapWhereAValueHasNoPlace) {
   panel.curves[0].x = {0, 2, 5, 8, 10};
   panel.curves[0].y = {0.5, 0.5, no_value, 0.5, 0.5};
   const std::string line = terminal_lines(panel, {30, 8}, false)[3];
-  EXPECT_NE(line.find("⠤⠤⠤⠤⠤"), std::string::npos) << line;
-  EXPECT_NE(line.find("              "), std::string::npos) << line;
+  EXPECT_TRUE(test::contains(line, {"⠤⠤⠤⠤⠤", "              "}));
 }
 
 TEST(TerminalChart, WritesPowersOfTenWithRaisedDigits) {
   Panel panel = diagonal();
   panel.y = {"", true, Range{1e-12, 1}};
   const std::string text = joined(terminal_lines(panel, {40, 12}, false));
-  EXPECT_NE(text.find("10⁻⁸┤"), std::string::npos) << text;
-  EXPECT_NE(text.find("   1┤"), std::string::npos) << text;
+  EXPECT_TRUE(test::contains(text, {"10⁻⁸┤", "   1┤"}));
 }
 
 TEST(TerminalChart, ColoursOnlyIfAskedFor) {
-  EXPECT_EQ(joined(terminal_lines(diagonal(), {30, 8}, false)).find('\033'), std::string::npos);
+  EXPECT_FALSE(test::contains(joined(terminal_lines(diagonal(), {30, 8}, false)), "\033"));
   std::string text = joined(terminal_lines(diagonal(), {30, 8}, true));
-  EXPECT_NE(text.find("\033[36m⠒⠒\033[0m theory"), std::string::npos) << text;
-  EXPECT_NE(text.find("\033[33mo\033[0m"), std::string::npos) << text;
+  EXPECT_TRUE(test::contains(text, {"\033[36m⠒⠒\033[0m theory", "\033[33mo\033[0m"}));
   // What is drawn is the same.
   for (auto at = text.find('\033'); at != text.npos; at = text.find('\033')) {
     text.erase(at, text.find('m', at) + 1 - at);

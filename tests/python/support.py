@@ -2,7 +2,12 @@
 
 import copy
 import importlib.util
+import os
+import subprocess
 import sys
+import tempfile
+import unittest
+from pathlib import Path
 
 GAS = {
     "title": "Cooling needles",
@@ -27,3 +32,25 @@ def require(*modules):
         if importlib.util.find_spec(module) is None:
             print(f"skipped: {module} is missing: expected the packages of packages.txt")
             sys.exit(77)
+
+
+class InFolder(unittest.TestCase):
+    """A test with a folder of its own, self.folder."""
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+
+
+def printed_by(*words, **options):
+    """What the program prints; it has to succeed."""
+    return subprocess.run([os.environ["NEEDLEWORK_PROGRAM"], *map(str, words)], check=True,
+                          capture_output=True, text=True, **options).stdout
+
+
+def script(path, text):
+    """A program of the shell at this path."""
+    path.write_text("#!/bin/sh\n" + text)
+    path.chmod(0o755)
+    return path

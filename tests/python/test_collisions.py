@@ -1,17 +1,15 @@
 """Callbacks: every collision once and in order, and what happens when they fail."""
 
 import gc
-import tempfile
 import unittest
 import warnings
 import weakref
-from pathlib import Path
 
 import needlework
 import numpy as np
 from needlework import Simulation
 
-from support import ELASTIC, GAS, gas
+from support import ELASTIC, GAS, InFolder, gas
 
 
 def batches_of(scene, batch, **options):
@@ -22,14 +20,13 @@ def batches_of(scene, batch, **options):
     return sim, batches
 
 
-class Batches(unittest.TestCase):
+class Batches(InFolder):
     def test_hold_every_collision_once_and_in_order(self):
-        with tempfile.TemporaryDirectory() as folder:
-            file = Path(folder, "run.h5")
-            with Simulation(gas(output={"file": str(file), "events": True})) as sim:
-                sim.run()
-            with needlework.read(file) as recording:
-                expected = recording.events[:]
+        file = self.folder / "run.h5"
+        with Simulation(gas(output={"file": str(file), "events": True})) as sim:
+            sim.run()
+        with needlework.read(file) as recording:
+            expected = recording.events[:]
         for batch in (1, 7, 1024, 10**6):
             sim, batches = batches_of(GAS, batch)
             self.assertTrue(all(len(rows) == batch for rows in batches[:-1]))
@@ -109,7 +106,7 @@ class Batches(unittest.TestCase):
         self.assertEqual(sim.hash, plain.hash)
 
 
-class Failures(unittest.TestCase):
+class Failures(InFolder):
     def test_an_exception_stops_the_advance_and_nothing_is_lost(self):
         class Broken(Exception):
             pass
@@ -146,15 +143,14 @@ class Failures(unittest.TestCase):
         self.assertGreaterEqual(len(seen), 1)
 
     def test_a_callback_that_knows_its_simulation_does_not_keep_it(self):
-        with tempfile.TemporaryDirectory() as folder:
-            sim = Simulation(gas(output={"file": str(Path(folder, "run.h5"))}))
-            sim.on_collisions(lambda rows, its=sim: its.interrupt(), 1)
-            gone = weakref.ref(sim)
-            self.assertEqual(sim.run(), "interrupted")
-            del sim
-            gc.collect()
-            self.assertIsNone(gone())
-            Simulation(gas(output={"file": str(Path(folder, "run.h5"))}), force=True).close()
+        sim = Simulation(gas(output={"file": str(self.folder / "run.h5")}))
+        sim.on_collisions(lambda rows, its=sim: its.interrupt(), 1)
+        gone = weakref.ref(sim)
+        self.assertEqual(sim.run(), "interrupted")
+        del sim
+        gc.collect()
+        self.assertIsNone(gone())
+        Simulation(gas(output={"file": str(self.folder / "run.h5")}), force=True).close()
 
     def test_wrong_arguments_are_named(self):
         sim = Simulation(GAS)

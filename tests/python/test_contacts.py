@@ -1,20 +1,17 @@
 """First contacts: exact cases, shapes, and the same answers as the program."""
 
-import os
-import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
 import needlework
 import numpy as np
 from needlework import InputError, predict
 
-PROGRAM = os.environ["NEEDLEWORK_PROGRAM"]
+from support import InFolder, printed_by
+
 REST, X, Y, Z = np.zeros(3), *np.eye(3)
 
 
-class Contacts(unittest.TestCase):
+class Contacts(InFolder):
     def test_crossed_needles_meet_when_and_where_they_must(self):
         # The second needle falls onto the first from height 2 and hits it off its centre.
         contact = predict(REST, X, REST, REST, [0.25, 0.1, 2], Y, -Z, REST, 10)
@@ -78,15 +75,13 @@ class Contacts(unittest.TestCase):
             if wide:
                 columns[4], columns[6] = apart, approaching
             ours = predict(*columns, 5.0, accuracy=accuracy, **(rods if wide else {}))
-            with tempfile.TemporaryDirectory() as folder:
-                path = Path(folder, "pairs.csv")
-                path.write_text("".join(
-                    ",".join([str(i), "random", "5.0", *(repr(float(x)) for column in columns
-                                                         for x in column[i]), "0",
-                              *(repr(float(x)) for x in sizes[i] if wide)]) + "\n"
-                    for i in range(300)))
-                printed = subprocess.run([PROGRAM, "predict", path, "--accuracy", accuracy],
-                                         check=True, capture_output=True, text=True).stdout
+            path = self.folder / "pairs.csv"
+            path.write_text("".join(
+                ",".join([str(i), "random", "5.0", *(repr(float(x)) for column in columns
+                                                     for x in column[i]), "0",
+                          *(repr(float(x)) for x in sizes[i] if wide)]) + "\n"
+                for i in range(300)))
+            printed = printed_by("predict", path, "--accuracy", accuracy)
             its = np.array([[float(x) for x in line.split(",")[1:]]
                             for line in printed.splitlines()]).T
             for column, expected in zip(ours, its):

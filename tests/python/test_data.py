@@ -1,12 +1,9 @@
 """Velocities that a caller sets, and data of its own: what files say of them."""
 
 import json
-import os
-import subprocess
-import tempfile
 import unittest
 
-from support import gas, require
+from support import InFolder, gas, printed_by, require
 
 require("h5py")
 
@@ -15,11 +12,10 @@ import numpy as np  # noqa: E402
 from needlework import Error, InputError, Simulation, read  # noqa: E402
 
 
-class Files(unittest.TestCase):
+class Files(InFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.path = os.path.join(folder.name, "gas.h5")
+        super().setUp()
+        self.path = str(self.folder / "gas.h5")
 
     def simulation(self, **output):
         return Simulation(gas(output={"file": self.path, "series_every": 0.5, **output}))
@@ -75,16 +71,12 @@ class VelocitiesSet(Files):
         with self.simulation() as sim:
             sim.run(time=0.25)
             self.heat(sim)
-        program = os.environ["NEEDLEWORK_PROGRAM"]
-        run = [program, "resume", self.path, "--set", "until.time=0.75", "--quiet"]
-        resumed = json.loads(subprocess.run([*run, "--json"], check=True, text=True,
-                                            capture_output=True).stdout)
+        resumed = json.loads(printed_by("resume", self.path, "--set", "until.time=0.75", "--quiet",
+                                        "--json"))
         self.assertEqual((resumed["time"], resumed["theory"]), (0.75, None))
-        info = subprocess.run([program, "info", self.path], check=True, text=True,
-                              capture_output=True).stdout
-        self.assertIn("/velocities_set: 1 change, time 0.25 to 0.25", info)
+        self.assertIn("/velocities_set: 1 change, time 0.25 to 0.25", printed_by("info", self.path))
         page = self.path + ".html"
-        subprocess.run([program, "report", self.path, "-o", page], check=True, capture_output=True)
+        printed_by("report", self.path, "-o", page)
         with open(page, encoding="utf-8") as file:
             text = file.read()
         self.assertIn('"velocities_set":0.25', text)

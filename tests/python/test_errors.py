@@ -5,7 +5,6 @@ import json
 import os
 import pickle
 import re
-import tempfile
 import unittest
 import warnings
 from pathlib import Path
@@ -14,12 +13,12 @@ import needlework
 import numpy as np
 from needlework import InputError, IoError, Simulation
 
-from support import GAS, gas
+from support import GAS, InFolder, gas
 
 COLLAPSE = {"needles": {"count": 50, "box": 2.5}, "collisions": {"epsilon": 0.1}}
 
 
-class Scenes(unittest.TestCase):
+class Scenes(InFolder):
     def rejects(self, scene, message, error=InputError, **arguments):
         with self.assertRaisesRegex(error, message), warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -39,10 +38,9 @@ class Scenes(unittest.TestCase):
     def test_lines_of_text_are_named(self):
         self.rejects("title = 'x'\nneedles.count = -1\n",
                      r"^scene: line 2: needles.count = -1: expected")
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder, "gas.toml")
-            path.write_text("needles = { count = 10, box = 1 }")
-            self.rejects(path, rf"^{path}: line 1: needles.box = 1: expected")
+        path = self.folder / "gas.toml"
+        path.write_text("needles = { count = 10, box = 1 }")
+        self.rejects(path, rf"^{path}: line 1: needles.box = 1: expected")
 
     def test_words_are_those_of_every_way_in(self):
         # tests/cli/one_validity_test.cpp reads the same table for the other ways.
@@ -50,10 +48,15 @@ class Scenes(unittest.TestCase):
         for scene in json.loads(table.read_text()):
             if not scene.get("front_ends", True):
                 continue
-            with self.subTest(scene["rule"]):
-                key = scene.get("file_key", scene["key"])
+            key, _, value = scene.get("set", "").partition("=")
+            entry = re.fullmatch(r"((?:species|pairs|walls)\.)[^.]*\.(.*)", key)
+            base = scene.get("base", "needles = { count = 10, box = 12 }\nuntil.time = 5\n")
+            text = f"{base}{entry[2]} = {value}\n" if entry else f"{key} = {value}\n{base}"
+            key = scene.get("file_key", scene.get("key", entry[1] + entry[2] if entry else key))
+            with self.subTest(scene):
                 place = rf"line \d+: {re.escape(key)} = .*: " if key else ""
-                self.rejects(scene["text"], f"^scene: {place}{re.escape(scene['message'])}$")
+                self.rejects(scene.get("text", text),
+                             f"^scene: {place}{re.escape(scene['message'])}$")
 
     def test_types_of_scenes_are_checked(self):
         self.rejects(5, "^scene = 5: expected a dictionary of sections, TOML text or a path")
@@ -120,22 +123,21 @@ class Scenes(unittest.TestCase):
         np.testing.assert_array_equal(Simulation(scene, image=most, **whole).image, most)
 
     def test_names_that_are_not_utf8_are_names(self):
-        with tempfile.TemporaryDirectory() as folder:
-            for path in (os.path.join(os.fsencode(folder), b"a\xff.toml"),
-                         os.fsdecode(os.path.join(os.fsencode(folder), b"b\xff.toml"))):
-                path = Path(os.fsdecode(path))
-                with self.assertRaisesRegex(IoError, r"\\xff.toml: .*No such file"):
-                    Simulation(path)
-                path.write_text("needles = { count = 5, box = 5 }\nwrong = 1\n")
-                with self.assertRaisesRegex(InputError, r"\\xff.toml: line 2: wrong"):
-                    Simulation(path)
-                path.write_text("needles = { count = 5, box = 5 }\n")
-                state = path.with_suffix(".h5")
-                Simulation(path).save(state)
-                with self.assertRaisesRegex(IoError, r"\udcff.h5: exists"):
-                    Simulation(path).save(os.fsencode(state))
-                with self.assertRaisesRegex(InputError, r"\udcff.h5.checkpoint: missing"):
-                    Simulation.resume(state)
+        for path in (os.path.join(os.fsencode(self.folder), b"a\xff.toml"),
+                     os.fsdecode(os.path.join(os.fsencode(self.folder), b"b\xff.toml"))):
+            path = Path(os.fsdecode(path))
+            with self.assertRaisesRegex(IoError, r"\\xff.toml: .*No such file"):
+                Simulation(path)
+            path.write_text("needles = { count = 5, box = 5 }\nwrong = 1\n")
+            with self.assertRaisesRegex(InputError, r"\\xff.toml: line 2: wrong"):
+                Simulation(path)
+            path.write_text("needles = { count = 5, box = 5 }\n")
+            state = path.with_suffix(".h5")
+            Simulation(path).save(state)
+            with self.assertRaisesRegex(IoError, r"\udcff.h5: exists"):
+                Simulation(path).save(os.fsencode(state))
+            with self.assertRaisesRegex(InputError, r"\udcff.h5.checkpoint: missing"):
+                Simulation.resume(state)
 
     def test_what_cannot_be_pickled_says_what_to_do(self):
         sim = Simulation(GAS)
@@ -159,10 +161,11 @@ class Scenes(unittest.TestCase):
             self.assertTrue(issubclass(error, needlework.Error))
 
 
-class Runs(unittest.TestCase):
+class Runs(InFolder):
     def test_limits_are_checked(self):
         sim = Simulation({"needles": {"count": 3, "box": 3}})
         for call, message in ((lambda: sim.run(time=-1), "time = -1: expected a number >= 0"),
+                              (lambda: sim.run(time=True), "time = .*: expected a number >= 0"),
                               (lambda: sim.run(time=float("nan")), "time = nan: expected"),
                               (lambda: sim.run(time="soon"), "time = 'soon': expected a number"),
                               (lambda: sim.advance(collisions=-1), "collisions = -1: expected"),
@@ -192,23 +195,22 @@ class Runs(unittest.TestCase):
         np.testing.assert_array_equal(sim.velocity, before)
 
     def test_files_are_kept_unless_forced(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder, "run.h5")
-            path.write_text("precious")
-            scene = gas(output={"file": str(path)})
-            with self.assertRaisesRegex(
-                    IoError, rf'^scene: output.file = "{path}": exists already: expected a new '
-                             "file, or force=True to replace it"):
-                Simulation(scene)
-            self.assertEqual(path.read_text(), "precious")
-            with Simulation(scene, force=True) as sim:
-                with self.assertRaisesRegex(IoError, "another .* simulation has the file open for"):
-                    Simulation(scene, force=True)
-                sim.run()
-            with needlework.read(path) as recording:
-                self.assertEqual(recording.series.collisions[-1], 2000)
-            with self.assertRaisesRegex(IoError, "folder that exists"):
-                Simulation(gas(output={"file": str(Path(folder, "none", "run.h5"))}))
+        path = self.folder / "run.h5"
+        path.write_text("precious")
+        scene = gas(output={"file": str(path)})
+        with self.assertRaisesRegex(
+                IoError, rf'^scene: output.file = "{path}": exists already: expected a new '
+                         "file, or force=True to replace it"):
+            Simulation(scene)
+        self.assertEqual(path.read_text(), "precious")
+        with Simulation(scene, force=True) as sim:
+            with self.assertRaisesRegex(IoError, "another .* simulation has the file open for"):
+                Simulation(scene, force=True)
+            sim.run()
+        with needlework.read(path) as recording:
+            self.assertEqual(recording.series.collisions[-1], 2000)
+        with self.assertRaisesRegex(IoError, "folder that exists"):
+            Simulation(gas(output={"file": str(Path(self.folder, "none", "run.h5"))}))
 
     def test_a_closed_simulation_can_be_read_only(self):
         sim = Simulation(GAS)

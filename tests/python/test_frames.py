@@ -1,14 +1,12 @@
 """Frames of H5MD files in all layouts that initial.file can have."""
 
-import tempfile
 import unittest
-from pathlib import Path
 
 import needlework
 import numpy as np
 from needlework import InputError, IoError, Simulation, read
 
-from support import require
+from support import InFolder, require
 
 require("h5py")
 
@@ -31,11 +29,10 @@ def numbers(frames):
             "orientation": u, "angular_velocity": w}
 
 
-class ForeignFiles(unittest.TestCase):
+class ForeignFiles(InFolder):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.path = Path(self.folder.name, "other.h5")
+        super().setUp()
+        self.path = self.folder / "other.h5"
 
     def make(self, frames=3, change=lambda file: None):
         """Elements without step and time, a box as [3], no ids and images."""

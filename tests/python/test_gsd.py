@@ -1,7 +1,5 @@
 """GSD files hold the frames of a run and the state of a simulation."""
 
-import os
-import tempfile
 import unittest
 
 import support
@@ -25,17 +23,16 @@ def turned(q):
     return np.stack([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x**2 + y**2)], axis=1)
 
 
-class GsdFiles(unittest.TestCase):
+class GsdFiles(support.InFolder):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
+        super().setUp()
         self.run = self.path("run.h5")
         scene = support.gas(output={"file": self.run, "frames": [0.5, 1.0]})
         with needlework.Simulation(scene) as sim:
             sim.run()
 
     def path(self, name):
-        return os.path.join(self.folder.name, name)
+        return str(self.folder / name)
 
     def assert_same(self, snapshot, frame):
         close = np.testing.assert_allclose

@@ -2,19 +2,18 @@
 
 import os
 import signal
-import tempfile
 import threading
 import time
 import unittest
-from pathlib import Path
 
 from needlework import Simulation, predict
 
-from support import ELASTIC, GAS
+from support import ELASTIC, GAS, InFolder
 
 
-class Interrupt(unittest.TestCase):
+class Interrupt(InFolder):
     def setUp(self):
+        super().setUp()
         # A parent that ignores the signal passes that on to its children.
         self.former = signal.signal(signal.SIGINT, signal.default_int_handler)
 
@@ -58,14 +57,13 @@ class Interrupt(unittest.TestCase):
         self.assertLessEqual(sim.totals.collisions - sum(counted), 10)
 
     def test_stops_drawing_a_state(self):
-        with tempfile.TemporaryDirectory() as folder:
-            file = Path(folder) / "large.h5"
-            self.press_after(0.05)
-            with self.assertRaises(KeyboardInterrupt):
-                Simulation("needles = { count = 5_000_000, box = 200 }\n"
-                           f"output.file = '{file}'")
-            # It would be there if the simulation had been made.
-            self.assertFalse(file.exists())
+        file = self.folder / "large.h5"
+        self.press_after(0.05)
+        with self.assertRaises(KeyboardInterrupt):
+            Simulation("needles = { count = 5_000_000, box = 200 }\n"
+                       f"output.file = '{file}'")
+        # It would be there if the simulation had been made.
+        self.assertFalse(file.exists())
 
     def test_stops_the_first_search(self):
         sim = Simulation("needles = { count = 150_000, box = 2.01 }")

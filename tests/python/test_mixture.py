@@ -4,7 +4,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from support import require
+from support import InFolder, require
 
 require("h5py")
 import needlework  # noqa: E402
@@ -178,7 +178,7 @@ class Files(unittest.TestCase):
             needlework.plot.cooling(self.run_.series, gas=self.run_.gas)
 
 
-class Theory(unittest.TestCase):
+class Theory(InFolder):
     GAS = {"counts": [800, 200], "box": 10, "length": [1, 0.5], "mass": [1, 0.25], "k": [6, 3],
            "epsilon": [[0.9, 0.6], [0.6, 1]]}
 
@@ -221,23 +221,22 @@ class Theory(unittest.TestCase):
         bodies = ([{"name": "rod", "count": 20, "length": 2, "diameter": 0.4}],
                   [{"name": "rod", "count": 20, "length": 2, "diameter": 0.4},
                    {"name": "ball", "count": 10, "length": 0, "diameter": 0.6}])
-        with tempfile.TemporaryDirectory() as folder:
-            for species in bodies:
-                file = Path(folder, f"{len(species)}.h5")
-                with needlework.Simulation({"needles": {"box": 8}, "species": species,
-                                            "output": {"file": str(file)}}) as sim:
-                    sim.run(time=0.1)
-                    gas = sim.gas
-                with needlework.read(file) as run:
-                    recorded = run.gas
-                given = {"box": [8, 8, 8], "counts": [each["count"] for each in species],
-                         **{name: [each[name] for each in species]
-                            for name in ("length", "diameter")}}
-                expected = theory.mixture_rates(given, 1, 1).collisions
-                for found in (gas, recorded):
-                    np.testing.assert_allclose(found.diameter, given["diameter"])
-                    np.testing.assert_allclose(theory.mixture_rates(found, 1, 1).collisions,
-                                               expected, rtol=1e-12)
+        for species in bodies:
+            file = self.folder / f"{len(species)}.h5"
+            with needlework.Simulation({"needles": {"box": 8}, "species": species,
+                                        "output": {"file": str(file)}}) as sim:
+                sim.run(time=0.1)
+                gas = sim.gas
+            with needlework.read(file) as run:
+                recorded = run.gas
+            given = {"box": [8, 8, 8], "counts": [each["count"] for each in species],
+                     **{name: [each[name] for each in species]
+                        for name in ("length", "diameter")}}
+            expected = theory.mixture_rates(given, 1, 1).collisions
+            for found in (gas, recorded):
+                np.testing.assert_allclose(found.diameter, given["diameter"])
+                np.testing.assert_allclose(theory.mixture_rates(found, 1, 1).collisions,
+                                           expected, rtol=1e-12)
 
     def test_a_diameter_makes_rods(self):
         for length, diameter, rate in ((0, 1, 7.0898154), (5, 1, 91.75811), (2.5, 0.5, 22.939528)):

@@ -1,10 +1,8 @@
 """Pictures show what they should: the measured points, the theory and the needles."""
 
-import tempfile
 import unittest
-from pathlib import Path
 
-from support import gas, require
+from support import InFolder, gas, require
 
 require("matplotlib", "h5py")
 import matplotlib  # noqa: E402
@@ -16,12 +14,11 @@ from matplotlib import pyplot  # noqa: E402
 from needlework import Simulation, plot, read  # noqa: E402
 
 
-class Pictures(unittest.TestCase):
+class Pictures(InFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
+        super().setUp()
         self.addCleanup(pyplot.close, "all")
-        path = Path(folder.name, "run.h5")
+        path = self.folder / "run.h5"
         self.sim = Simulation(gas(output={"file": str(path)}))
         samples = [self.sim.totals]
         for time in np.geomspace(0.1, 10, 10):
@@ -106,12 +103,11 @@ class Pictures(unittest.TestCase):
             plot.cooling(self.series)
 
 
-class PicturesOfAMixture(unittest.TestCase):
+class PicturesOfAMixture(InFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
+        super().setUp()
         self.addCleanup(pyplot.close, "all")
-        self.path = Path(folder.name, "run.h5")
+        self.path = self.folder / "run.h5"
         species = [{"name": "light", "count": 60, "diameter": 0.1},
                    {"name": "heavy", "count": 30, "diameter": 0.1, "mass": 5.0},
                    {"name": "balls", "count": 30, "diameter": 0.4, "length": 0}]

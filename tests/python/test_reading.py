@@ -15,22 +15,21 @@ import needlework
 import numpy as np
 from needlework import InputError, IoError, Simulation, read
 
-from support import GAS, gas, require
+from support import GAS, InFolder, gas, require
 
 require("h5py", "pandas")
 
 
-class Summaries(unittest.TestCase):
+class Summaries(InFolder):
     def test_of_a_sweep_has_a_column_for_each_parameter_and_result(self):
-        with tempfile.TemporaryDirectory() as folder:
-            Path(folder, "scene.toml").write_text(
-                "needles = { count = 20, box = 4 }\nuntil.collisions_per_needle = 5\n")
-            Path(folder, "grid.toml").write_text(
-                'scene = "scene.toml"\nseeds = [1, 2]\n[parameters]\n'
-                '"collisions.epsilon" = [1.0, 0.9]\n"collisions.tc" = 0.1\n')
-            subprocess.run([os.environ["NEEDLEWORK_PROGRAM"], "sweep", "grid.toml", "--quiet",
-                            "--out", "all"], cwd=folder, check=True)
-            summary = read(Path(folder, "all", "summary.h5"))
+        (self.folder / "scene.toml").write_text(
+            "needles = { count = 20, box = 4 }\nuntil.collisions_per_needle = 5\n")
+        (self.folder / "grid.toml").write_text(
+            'scene = "scene.toml"\nseeds = [1, 2]\n[parameters]\n'
+            '"collisions.epsilon" = [1.0, 0.9]\n"collisions.tc" = 0.1\n')
+        subprocess.run([os.environ["NEEDLEWORK_PROGRAM"], "sweep", "grid.toml", "--quiet",
+                        "--out", "all"], cwd=self.folder, check=True)
+        summary = read(Path(self.folder, "all", "summary.h5"))
         np.testing.assert_equal(summary["collisions.epsilon"], [1, 0.9])
         np.testing.assert_equal(summary.members, [2, 2])
         np.testing.assert_equal(summary.collisions, [50, 50])

@@ -6,16 +6,14 @@ import json
 import math
 import os
 import signal
-import stat
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 from pathlib import Path
 
 import small_paper
-from support import require
+from support import InFolder, require, script
 
 require("matplotlib", "h5py")
 import h5py  # noqa: E402
@@ -39,14 +37,7 @@ def reproduce(*words):
     return code, out.getvalue(), err.getvalue()
 
 
-class InAFolder(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-
-
-class SmallPaper(InAFolder):
+class SmallPaper(InFolder):
     def setUp(self):
         super().setUp()
         self.paper = small_paper.write(self.folder / "paper")
@@ -105,9 +96,8 @@ class SmallPaper(InAFolder):
         whole = reproduce(*words, "--out", self.folder / "whole")
         self.assertEqual(whole[0], 0)
         # A program that ends like one that a signal stops once some members are finished.
-        stopping = self.folder / "stopping"
-        stopping.write_text(f'#!/bin/sh\n"{small_paper.PROGRAM}" "$@" --member 1/2\nexit 75\n')
-        stopping.chmod(stopping.stat().st_mode | stat.S_IXUSR)
+        stopping = script(self.folder / "stopping",
+                          f'"{small_paper.PROGRAM}" "$@" --member 1/2\nexit 75\n')
         parts = self.folder / "parts"
         code, out, err = reproduce(*words, "--out", parts, "--program", stopping)
         self.assertEqual((code, out), (75, ""))
@@ -135,7 +125,7 @@ class SmallPaper(InAFolder):
             runs.points("dense")
 
 
-class Folders(InAFolder):
+class Folders(InFolder):
     def test_of_something_else_are_refused(self):
         mine = self.folder / "mine"
         mine.mkdir()
@@ -164,7 +154,7 @@ class Folders(InAFolder):
         self.assertFalse((self.folder / "none").exists())
 
 
-class KnownRuns(InAFolder):
+class KnownRuns(InFolder):
     """Finished runs of the dense set, in which S, the second moment and the order of rotation
     grow in a known way."""
 
@@ -244,7 +234,7 @@ class KnownRuns(InAFolder):
         self.assertTrue(np.isnan(at_collisions(run, values, [-1, 1200.1])).all())
 
 
-class Units(InAFolder):
+class Units(InFolder):
     def test_of_time_are_those_of_the_paper(self):
         scene = {"needles": {"count": 10000, "box": 24}}
         gamma = 2 / 3 * math.sqrt(math.pi) * Conditions.of(scene).density
@@ -267,7 +257,7 @@ class Units(InAFolder):
             read_table(self.folder / "none.csv")
 
 
-class Program(InAFolder):
+class Program(InFolder):
     """needlework reproduce, which hands over to Python."""
 
     def run_program(self, *words, **environment):
@@ -277,10 +267,8 @@ class Program(InAFolder):
 
     def python(self, *options):
         """An interpreter with options."""
-        path = self.folder / "python"
-        path.write_text(f'#!/bin/sh\nexec "{sys.executable}" {" ".join(options)} "$@"\n')
-        path.chmod(0o755)
-        return str(path)
+        return str(script(self.folder / "python",
+                          f'exec "{sys.executable}" {" ".join(options)} "$@"\n'))
 
     def test_makes_a_figure_with_its_claims(self):
         words = ("relaxation", "--quick", "--out", "all", "--json", "--quiet")

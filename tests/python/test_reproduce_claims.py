@@ -1,12 +1,10 @@
 """Verdicts follow from the numbers, and claims are read with their numbers and their errors."""
 
 import math
-import tempfile
 import unittest
 from dataclasses import replace
-from pathlib import Path
 
-from support import require
+from support import InFolder, require
 
 require("matplotlib", "h5py")
 from needlework import InputError  # noqa: E402
@@ -138,7 +136,7 @@ class Rows(unittest.TestCase):
         self.assertEqual(table_text(rows).count("\n"), 3)
 
 
-class Claims(unittest.TestCase):
+class Claims(InFolder):
     def test_of_the_paper_have_number_and_precision(self):
         claims = read_claims(PAPER / "claims.toml")
         claim = claims["equipartition-k"]
@@ -174,13 +172,12 @@ class Claims(unittest.TestCase):
             self.assertEqual(self.error(text), expected)
 
     def error(self, text):
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder, "claims.toml")
-            path.write_text(text)
-            try:
-                read_claims(path)
-            except InputError as error:
-                return str(error).removeprefix(f"{path}: ")
+        path = self.folder / "claims.toml"
+        path.write_text(text)
+        try:
+            read_claims(path)
+        except InputError as error:
+            return str(error).removeprefix(f"{path}: ")
         return None
 
 

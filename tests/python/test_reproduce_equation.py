@@ -1,13 +1,11 @@
 """Simulations of the Boltzmann equation beside runs: which are asked for, kept and asked again."""
 
 import json
-import stat
-import tempfile
 import unittest
 from pathlib import Path
 
 import small_paper
-from support import require
+from support import InFolder, require, script
 
 require("matplotlib", "h5py")
 import numpy as np  # noqa: E402
@@ -20,13 +18,11 @@ from needlework.reproduce.runs import Conditions, FinishedRun  # noqa: E402
 from needlework.reproduce.sweeps import STOPPED, run_set  # noqa: E402
 
 
-class Equation(unittest.TestCase):
+class Equation(InFolder):
     SET = "boltzmann-encounters"
 
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
+        super().setUp()
         self.paper = small_paper.write(self.folder / "paper")
         self.runs = PaperRuns(self.folder / "out", "full", self.paper)
 
@@ -73,17 +69,14 @@ class Equation(unittest.TestCase):
             self.assertEqual(self.answered(), [False] * 6, text)
 
     def test_keeps_what_is_solved_before_it_is_stopped(self):
-        stopping = self.folder / "stopping"
-        stopping.write_text('#!/bin/sh\ncase "$*" in *"--seed 3"*) kill -TERM $$;; esac\n'
-                            f'exec "{small_paper.PROGRAM}" "$@"\n')
-        stopping.chmod(stopping.stat().st_mode | stat.S_IXUSR)
+        stopping = script(self.folder / "stopping",
+                          'case "$*" in *"--seed 3"*) kill -TERM $$;; esac\n'
+                          f'exec "{small_paper.PROGRAM}" "$@"\n')
         self.assertEqual(self.solve(stopping), STOPPED)
         self.assertEqual(self.answered(), [True, True, False, False, False, False])
         self.assertEqual(self.solve(), 0)
         self.assertEqual(self.answered(), [True] * 6)
-        refusing = self.folder / "refusing"
-        refusing.write_text("#!/bin/sh\necho no JSON\n")
-        refusing.chmod(stopping.stat().st_mode)
+        refusing = script(self.folder / "refusing", "echo no JSON\n")
         questions(self.runs, self.SET)[0].path.unlink()
         with self.assertRaisesRegex(InputError, "expected JSON of the program"):
             self.solve(refusing)

@@ -4,7 +4,6 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
@@ -12,9 +11,8 @@ import needlework
 import numpy as np
 from needlework import Simulation
 
-from support import GAS, gas
+from support import GAS, InFolder, gas, printed_by
 
-PROGRAM = os.environ["NEEDLEWORK_PROGRAM"]
 
 
 def hash_at(collisions):
@@ -23,11 +21,10 @@ def hash_at(collisions):
     return sim.hash
 
 
-class Resume(unittest.TestCase):
+class Resume(InFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.file = Path(folder.name, "gas.h5")
+        super().setUp()
+        self.file = self.folder / "gas.h5"
 
     def scene(self, **output):
         return gas(output={"file": str(self.file), **output})
@@ -72,9 +69,8 @@ class Resume(unittest.TestCase):
     def test_the_program_continues_a_run_of_python(self):
         with Simulation(self.scene()) as first:
             first.run(collisions=300)
-        done = subprocess.run([PROGRAM, "resume", self.file, "--json", "--quiet"], check=True,
-                              capture_output=True, text=True)
-        self.assertEqual(json.loads(done.stdout)["trajectory_hash"], hash_at(2000))
+        printed = printed_by("resume", self.file, "--json", "--quiet")
+        self.assertEqual(json.loads(printed)["trajectory_hash"], hash_at(2000))
 
     def test_a_damaged_checkpoint_is_passed_over_with_a_warning(self):
         sim = Simulation(self.scene())

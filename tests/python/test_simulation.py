@@ -2,9 +2,6 @@
 
 import enum
 import json
-import os
-import subprocess
-import tempfile
 import threading
 import unittest
 import warnings
@@ -14,9 +11,8 @@ import needlework
 import numpy as np
 from needlework import Simulation
 
-from support import ELASTIC, GAS, gas
+from support import ELASTIC, GAS, InFolder, gas, printed_by
 
-PROGRAM = os.environ["NEEDLEWORK_PROGRAM"]
 PROFILES = Path(__file__).resolve().parents[2] / "profiles"
 TOML = """
 title = "Cooling needles"
@@ -27,12 +23,10 @@ until.collisions_per_needle = 20
 
 
 def run_program(*arguments):
-    done = subprocess.run([PROGRAM, "run", *map(str, arguments), "--json", "--quiet"],
-                          capture_output=True, text=True, check=True)
-    return json.loads(done.stdout)
+    return json.loads(printed_by("run", *arguments, "--json", "--quiet"))
 
 
-class SameAsTheProgram(unittest.TestCase):
+class SameAsTheProgram(InFolder):
     def test_hash_of_the_quickstart_is_that_of_the_program(self):
         scene = PROFILES / "quickstart.toml"
         sim = Simulation(scene)
@@ -44,36 +38,34 @@ class SameAsTheProgram(unittest.TestCase):
         self.assertEqual(sim.totals.energy, expected["energy"])
 
     def test_dictionary_text_and_path_are_the_same_scene(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder, "gas.toml")
-            path.write_text(TOML)
-            hashes = []
-            for scene in (GAS, TOML, path, str(path)):
-                sim = Simulation(scene)
-                self.assertEqual(sim.run(), "collisions")
-                hashes.append(sim.hash)
+        path = self.folder / "gas.toml"
+        path.write_text(TOML)
+        hashes = []
+        for scene in (GAS, TOML, path, str(path)):
+            sim = Simulation(scene)
+            self.assertEqual(sim.run(), "collisions")
+            hashes.append(sim.hash)
         self.assertEqual(len(set(hashes)), 1)
 
     def test_file_is_that_of_the_program(self):
         import h5py
-        with tempfile.TemporaryDirectory() as folder:
-            ours, its = Path(folder, "ours.h5"), Path(folder, "its.h5")
-            scene = Path(folder, "gas.toml")
-            scene.write_text(TOML + "output = { events = true, frames = 5 }\n")
-            run_program(scene, "--out", its)
-            with Simulation(gas(output={"events": True, "frames": 5, "file": str(ours)})) as sim:
-                for _ in range(9):
-                    sim.advance(collisions=77)
-                    sim.position  # looking on changes nothing
-                sim.run()
-            with h5py.File(ours) as a, h5py.File(its) as b:
-                names = []
-                b.visititems(lambda name, item: names.append(name)
-                             if isinstance(item, h5py.Dataset) else None)
-                for name in names:
-                    if name != "parameters/scene":
-                        np.testing.assert_array_equal(a[name][()], b[name][()], err_msg=name)
-            self.assertGreater(len(names), 30)
+        ours, its = self.folder / "ours.h5", self.folder / "its.h5"
+        scene = self.folder / "gas.toml"
+        scene.write_text(TOML + "output = { events = true, frames = 5 }\n")
+        run_program(scene, "--out", its)
+        with Simulation(gas(output={"events": True, "frames": 5, "file": str(ours)})) as sim:
+            for _ in range(9):
+                sim.advance(collisions=77)
+                sim.position  # looking on changes nothing
+            sim.run()
+        with h5py.File(ours) as a, h5py.File(its) as b:
+            names = []
+            b.visititems(lambda name, item: names.append(name)
+                         if isinstance(item, h5py.Dataset) else None)
+            for name in names:
+                if name != "parameters/scene":
+                    np.testing.assert_array_equal(a[name][()], b[name][()], err_msg=name)
+        self.assertGreater(len(names), 30)
 
 
 class Limits(unittest.TestCase):
@@ -87,11 +79,6 @@ class Limits(unittest.TestCase):
         for limit, expected in ((1010, 1010), (5, 1010)):
             self.assertEqual(sim.run(collisions=limit), "collisions")
             self.assertEqual(sim.totals.collisions, expected)
-
-    def test_limits_are_numbers(self):
-        for limit in ("3", True, float("nan")):
-            with self.assertRaisesRegex(needlework.InputError, "^time = .*: expected a number >= 0"):
-                Simulation(ELASTIC).run(time=limit)
 
     def test_limits_are_numbers_of_any_kind(self):
         class Count(enum.IntEnum):
@@ -122,13 +109,6 @@ class Limits(unittest.TestCase):
         self.assertLessEqual(sim.totals.energy, 0.5 * energy)
         self.assertGreater(sim.totals.energy, 0.49 * energy)
 
-    def test_pieces_are_the_whole(self):
-        whole, pieces = Simulation(GAS), Simulation(GAS)
-        whole.run(collisions_per_needle=20)
-        while pieces.totals.collisions < 2000:
-            pieces.advance(collisions=1)
-        self.assertEqual(pieces.hash, whole.hash)
-
     def test_wall_time_ends_a_run(self):
         sim = Simulation(ELASTIC)
         self.assertEqual(sim.run(time=1e9, wall_s=0.01), "wall_time")
@@ -155,7 +135,7 @@ class Limits(unittest.TestCase):
         timer.join()
 
 
-class State(unittest.TestCase):
+class State(InFolder):
     def test_a_state_is_taken_as_it_is(self):
         first = Simulation(GAS)
         first.run()
@@ -238,14 +218,13 @@ class State(unittest.TestCase):
     def test_a_saved_state_is_an_initial_file(self):
         first = Simulation(GAS)
         first.run()
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder, "state.h5")
+        path = self.folder / "state.h5"
+        first.save(path)
+        with self.assertRaisesRegex(needlework.IoError, "exists already: .* force=True"):
             first.save(path)
-            with self.assertRaisesRegex(needlework.IoError, "exists already: .* force=True"):
-                first.save(path)
-            first.save(path, force=True)
-            again = Simulation({"initial": {"file": path},
-                                "collisions": {"epsilon": 0.8, "tc_relative": 1e-3}})
+        first.save(path, force=True)
+        again = Simulation({"initial": {"file": path},
+                            "collisions": {"epsilon": 0.8, "tc_relative": 1e-3}})
         np.testing.assert_array_equal(again.position, first.position)
         np.testing.assert_array_equal(again.image, first.image)
 

@@ -1,27 +1,26 @@
 """Contacts of needles that slide on each other, in totals, callbacks and files."""
 
-import tempfile
 import unittest
-from pathlib import Path
 
 import needlework
 import numpy as np
 from needlework import Simulation
 
+from support import InFolder
 
-class Sliding(unittest.TestCase):
+
+class Sliding(InFolder):
     def test_contacts_are_counted_reported_and_recorded(self):
         batches = []
-        with tempfile.TemporaryDirectory() as folder:
-            file = Path(folder, "run.h5")
-            with Simulation({"needles": {"count": 100, "box": 5.0},
-                             "collisions": {"epsilon": 0.2, "sliding": True},
-                             "output": {"file": str(file), "series_every": 0.5}}) as sim:
-                sim.on_happenings(batches.append, 100)
-                sim.run(time=2)
-                contacts = sim.sliding_contacts
-            with needlework.read(file) as recording:
-                table = recording.observable("contacts")
+        file = self.folder / "run.h5"
+        with Simulation({"needles": {"count": 100, "box": 5.0},
+                         "collisions": {"epsilon": 0.2, "sliding": True},
+                         "output": {"file": str(file), "series_every": 0.5}}) as sim:
+            sim.on_happenings(batches.append, 100)
+            sim.run(time=2)
+            contacts = sim.sliding_contacts
+        with needlework.read(file) as recording:
+            table = recording.observable("contacts")
         kinds = np.concatenate(batches)["kind"]
         self.assertGreater(contacts.entered, 10)
         self.assertEqual(np.sum(kinds == 2), contacts.entered)

@@ -1,23 +1,20 @@
 """Kinetic theory: the same numbers as the program, arrays, and ranges."""
 
 import json
-import os
-import subprocess
 import unittest
 
 import numpy as np
 from needlework import InputError, theory
 
-PROGRAM = os.environ["NEEDLEWORK_PROGRAM"]
+from support import printed_by
+
 
 
 class Theory(unittest.TestCase):
     def test_numbers_are_those_of_the_program(self):
         taus = [0, 0.5, 3, 100]
-        printed = subprocess.run(
-            [PROGRAM, "theory", "--epsilon", "0.8", "--k", "6", "--beta", "0.3", "--t-rot0", "0",
-             "--json", *(part for tau in taus for part in ("--tau", str(tau)))],
-            check=True, capture_output=True, text=True).stdout
+        printed = printed_by("theory", "--epsilon", "0.8", "--k", "6", "--beta", "0.3", "--t-rot0", "0",
+             "--json", *(part for tau in taus for part in ("--tau", str(tau))))
         expected = json.loads(printed)
         curve = theory.cooling(0.8, 6, beta=0.3, t_rot0=0, tau=taus)
         for name in ("tau", "t_tr", "t_rot", "energy"):
@@ -40,9 +37,7 @@ class Theory(unittest.TestCase):
         self.assertLess(walled, periodic)
 
     def test_diffusion_is_that_of_the_program_and_takes_arrays(self):
-        printed = subprocess.run(
-            [PROGRAM, "theory", "--epsilon", "1", "--k", "6", "--density", "8", "--json"],
-            check=True, capture_output=True, text=True).stdout
+        printed = printed_by("theory", "--epsilon", "1", "--k", "6", "--density", "8", "--json")
         expected = json.loads(printed)["diffusion"]
         diffusion = theory.diffusion(6, [[8.0], [16.0]], [1.0, 4.0])
         for name, value in expected.items():

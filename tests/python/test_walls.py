@@ -1,36 +1,35 @@
 """Hits on walls: in callbacks, totals and files."""
 
-import tempfile
 import unittest
-from pathlib import Path
 
 import needlework
 import numpy as np
 from needlework import Simulation
+
+from support import InFolder
 
 WALLED = {"needles": {"count": 80, "box": 5.0, "seed": 3},
           "walls": [{"axis": "z", "side": "both"}, {"axis": "x", "side": "low"}],
           "forces": {"gravity": [-0.5, 0, 0]}}
 
 
-class Walls(unittest.TestCase):
+class Walls(InFolder):
     def test_hits_are_reported_counted_and_recorded(self):
         batches, collisions = [], []
-        with tempfile.TemporaryDirectory() as folder:
-            file = Path(folder, "run.h5")
-            with Simulation({**WALLED, "output": {"file": str(file), "events": True}}) as sim:
-                sim.on_happenings(batches.append, 100, states=True)
-                sim.on_collisions(collisions.append, 100)
-                sim.run(time=3)
-                totals, walls = sim.totals, sim.wall_totals
-            rows = np.concatenate(batches)
-            with needlework.read(file) as recording:
-                events = recording.events[:]
-                np.testing.assert_array_equal(recording.events["kind"], rows["kind"])
-                for name in events.dtype.names:
-                    np.testing.assert_array_equal(events[name], rows[name])
-                table = recording.observable("walls")
-                self.assertEqual([wall.hits for wall in walls], list(table.hits[-1]))
+        file = self.folder / "run.h5"
+        with Simulation({**WALLED, "output": {"file": str(file), "events": True}}) as sim:
+            sim.on_happenings(batches.append, 100, states=True)
+            sim.on_collisions(collisions.append, 100)
+            sim.run(time=3)
+            totals, walls = sim.totals, sim.wall_totals
+        rows = np.concatenate(batches)
+        with needlework.read(file) as recording:
+            events = recording.events[:]
+            np.testing.assert_array_equal(recording.events["kind"], rows["kind"])
+            for name in events.dtype.names:
+                np.testing.assert_array_equal(events[name], rows[name])
+            table = recording.observable("walls")
+            self.assertEqual([wall.hits for wall in walls], list(table.hits[-1]))
         self.assertEqual(rows.dtype, needlework.HAPPENING_WITH_STATES)
         self.assertEqual({needlework.KINDS[kind] for kind in set(rows["kind"])}, {"pair", "wall"})
         self.assertEqual(sum(map(len, collisions)), totals.collisions)
@@ -50,7 +49,7 @@ class Walls(unittest.TestCase):
         self.assertEqual(Simulation({"needles": {"count": 9, "box": 5.0}}).wall_totals, [])
 
 
-class Order(unittest.TestCase):
+class Order(InFolder):
     def test_order_and_director_of_tensors(self):
         direction = np.array([0.6, 0, 0.8])
         parallel = 1.5 * np.outer(direction, direction) - np.eye(3) / 2
@@ -66,15 +65,14 @@ class Order(unittest.TestCase):
                 needlework.nematic_order(bad)
 
     def test_directors_lie_along_near_walls(self):
-        with tempfile.TemporaryDirectory() as folder:
-            file = Path(folder, "run.h5")
-            scene = {"needles": {"count": 2000, "box": [9, 9, 2]}, "walls": WALLED["walls"][:1],
-                     "output": {"file": str(file), "observables": ["wall_profiles"]}}
-            with Simulation(scene) as sim:
-                sim.run(time=0)
-            with needlework.read(file) as recording:
-                rows = recording.observable("wall_profiles")
-                tensor, p2 = rows.order_tensor[0, 0], rows.p2[0, 0]
+        file = self.folder / "run.h5"
+        scene = {"needles": {"count": 2000, "box": [9, 9, 2]}, "walls": WALLED["walls"][:1],
+                 "output": {"file": str(file), "observables": ["wall_profiles"]}}
+        with Simulation(scene) as sim:
+            sim.run(time=0)
+        with needlework.read(file) as recording:
+            rows = recording.observable("wall_profiles")
+            tensor, p2 = rows.order_tensor[0, 0], rows.p2[0, 0]
         self.assertEqual(tensor.shape, (16, 3, 3))
         np.testing.assert_allclose(tensor[:, 2, 2], p2, atol=1e-12)
         found = needlework.nematic_order(tensor)
@@ -97,32 +95,31 @@ START = {"position": [[1, 1, 0.5 + AMPLITUDE + 1 / 8]], "velocity": [[0, 0, 0]],
          "orientation": [[0, 0, 1]], "angular_velocity": [[0, 0, 0]]}
 
 
-class Phases(unittest.TestCase):
+class Phases(InFolder):
     def test_means_by_phase_are_those_of_a_periodic_orbit(self):
-        with tempfile.TemporaryDirectory() as folder:
-            file = Path(folder, "run.h5")
-            scene = {**BOUNCING, "output": {**BOUNCING["output"], "file": str(file)}}
-            with Simulation(scene, **START) as sim:
-                sim.run(time=2.5)
-                sim.checkpoint()
-            with Simulation.resume(file) as sim:
-                sim.run(time=10)
-                hits, = sim.wall_totals
-                self.assertEqual(hits.hits, 10)
-                self.assertAlmostEqual(hits.phase, 3 * np.pi / 2, places=12)
-                self.assertAlmostEqual(hits.pressure, 10 * 1 / (9 * 10), places=12)
-            with needlework.read(file) as recording:
-                height = recording.observable("centre_of_mass").position[:, 0]
-                folded = recording.by_phase(height)
-                late = recording.by_phase(height, bins=4, since=9)
-                profiles = recording.observable("wall_profiles")
-                slabs = recording.by_phase(profiles.t_normal[:, 0], weights=profiles.density[:, 0])
-                pressure = recording.observable("walls").pressure[:, 0]
-                for arguments in ({"values": height[1:]}, {"values": height, "bins": 0},
-                                  {"values": height, "wall": 1},
-                                  {"values": height, "weights": [1, 2]}):
-                    with self.assertRaises(needlework.InputError):
-                        recording.by_phase(**arguments)
+        file = self.folder / "run.h5"
+        scene = {**BOUNCING, "output": {**BOUNCING["output"], "file": str(file)}}
+        with Simulation(scene, **START) as sim:
+            sim.run(time=2.5)
+            sim.checkpoint()
+        with Simulation.resume(file) as sim:
+            sim.run(time=10)
+            hits, = sim.wall_totals
+            self.assertEqual(hits.hits, 10)
+            self.assertAlmostEqual(hits.phase, 3 * np.pi / 2, places=12)
+            self.assertAlmostEqual(hits.pressure, 10 * 1 / (9 * 10), places=12)
+        with needlework.read(file) as recording:
+            height = recording.observable("centre_of_mass").position[:, 0]
+            folded = recording.by_phase(height)
+            late = recording.by_phase(height, bins=4, since=9)
+            profiles = recording.observable("wall_profiles")
+            slabs = recording.by_phase(profiles.t_normal[:, 0], weights=profiles.density[:, 0])
+            pressure = recording.observable("walls").pressure[:, 0]
+            for arguments in ({"values": height[1:]}, {"values": height, "bins": 0},
+                              {"values": height, "wall": 1},
+                              {"values": height, "weights": [1, 2]}):
+                with self.assertRaises(needlework.InputError):
+                    recording.by_phase(**arguments)
         np.testing.assert_allclose(folded.phase, np.arange(16) * np.pi / 8)
         self.assertEqual(folded.samples.sum(), 161)
         self.assertEqual(sorted(folded.samples), [10] * 15 + [11])
@@ -141,36 +138,34 @@ class Phases(unittest.TestCase):
         np.testing.assert_allclose(np.sum(pressure[1:]) / 16, 10 * 1 / 9)
 
     def test_walls_at_rest_have_no_phase(self):
-        with tempfile.TemporaryDirectory() as folder:
-            file = Path(folder, "run.h5")
-            with Simulation({**WALLED, "output": {"file": str(file)}}) as sim:
-                self.assertTrue(np.isnan(sim.wall_totals[0].phase))
-                sim.run(time=0.1)
-            with needlework.read(file) as recording:
-                with self.assertRaises(needlework.InputError):
-                    recording.by_phase(recording.series.t_tr)
+        file = self.folder / "run.h5"
+        with Simulation({**WALLED, "output": {"file": str(file)}}) as sim:
+            self.assertTrue(np.isnan(sim.wall_totals[0].phase))
+            sim.run(time=0.1)
+        with needlework.read(file) as recording:
+            with self.assertRaises(needlework.InputError):
+                recording.by_phase(recording.series.t_tr)
 
 
-class Budget(unittest.TestCase):
+class Budget(InFolder):
     def test_is_the_change_of_the_energy_at_each_sample(self):
-        with tempfile.TemporaryDirectory() as folder:
-            file = Path(folder, "run.h5")
-            scene = {"needles": {"count": 80, "box": 5.0, "seed": 3},
-                     "collisions": {"epsilon": 0.8, "tc_relative": 1e-3},
-                     "walls": [{"axis": "z", "side": "low", "epsilon": 0.9, "motion": {
-                                    "amplitude": 0.1, "frequency": 2}},
-                               {"axis": "x", "side": "both", "temperature": 2.0}],
-                     "driving": {"kicks": {"every": 0.1, "translational": 1, "rotational": 1}},
-                     "forces": {"gravity": [0, 0, -2]}, "output": {"file": str(file)}}
-            with Simulation(scene) as sim:
-                sim.run(time=1)
-                sim.set_velocities(2 * sim.velocity, sim.angular_velocity)
-                sim.checkpoint()
-            with Simulation.resume(file) as sim:
-                sim.run(time=3)
-                budget, energy = sim.energy_budget, sim.totals.energy
-            with needlework.read(file) as recording:
-                series, rows = recording.series, recording.observable("energy_budget")
+        file = self.folder / "run.h5"
+        scene = {"needles": {"count": 80, "box": 5.0, "seed": 3},
+                 "collisions": {"epsilon": 0.8, "tc_relative": 1e-3},
+                 "walls": [{"axis": "z", "side": "low", "epsilon": 0.9, "motion": {
+                                "amplitude": 0.1, "frequency": 2}},
+                           {"axis": "x", "side": "both", "temperature": 2.0}],
+                 "driving": {"kicks": {"every": 0.1, "translational": 1, "rotational": 1}},
+                 "forces": {"gravity": [0, 0, -2]}, "output": {"file": str(file)}}
+        with Simulation(scene) as sim:
+            sim.run(time=1)
+            sim.set_velocities(2 * sim.velocity, sim.angular_velocity)
+            sim.checkpoint()
+        with Simulation.resume(file) as sim:
+            sim.run(time=3)
+            budget, energy = sim.energy_budget, sim.totals.energy
+        with needlework.read(file) as recording:
+            series, rows = recording.series, recording.observable("energy_budget")
         self.assertEqual(set(budget), {"pairs", "walls", "kicks", "velocities_set"})
         self.assertEqual(len(budget.walls), 3)
         self.assertGreater(budget.velocities_set, 1)

@@ -2,14 +2,13 @@
 #pragma once
 
 #include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "src/json/base64.h"
+#include "tests/support/whole_file.h"
 
 namespace needlework::test {
 
@@ -17,9 +16,7 @@ namespace needlework::test {
 class PageData {
  public:
   explicit PageData(const std::string& path) {
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    text_ = text.str();
+    text_ = bytes_of(path);
     json = nlohmann::json::parse(block("data"));
   }
 

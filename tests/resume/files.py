@@ -4,23 +4,15 @@ import subprocess
 
 import h5py
 
+OUTPUT = "[output]\nframes = 4\nevents = true\ncheckpoint_every = 0.02\n"
 # With all that is remembered between samples, and collisions whose time is that of t_c.
-SCENE = """
-[needles]
-count = 400
-box = 8.0
-[collisions]
-epsilon = 0.8
-tc_relative = 1e-3
-[until]
-energy_ratio = 0.02
-[output]
-frames = 4
-events = true
-checkpoint_every = 0.02
-observables = ["fields", "profiles", "flow_order", "distributions", "alignment", "velocity_moments",
-               "temperature_by_axis", "pair_correlation", "structure_factor", "displacement",
-               "time_correlation", "collision_statistics"]
+SCENE = f"""
+needles = {{ count = 400, box = 8.0 }}
+collisions = {{ epsilon = 0.8, tc_relative = 1e-3 }}
+until.energy_ratio = 0.02
+{OUTPUT}observables = ["fields", "profiles", "flow_order", "distributions", "alignment",
+               "velocity_moments", "temperature_by_axis", "pair_correlation", "structure_factor",
+               "displacement", "time_correlation", "collision_statistics"]
 """
 
 # Other scenes, whose effects remember something of needles, walls and random numbers.
@@ -31,68 +23,32 @@ needles = { count = 250, box = [7, 7, 6], k = 5 }
 forces.gravity = [0, 0, -1]
 collisions = { epsilon = 0.9, beta = 0.3, tc_relative = 1e-3 }
 until.time = 15.02
-[[walls]]
-axis = "z"
-side = "low"
-epsilon = 0.9
-motion = { amplitude = 0.2, frequency = 1.7, phase = 0.4 }
-[[walls]]
-axis = "y"
-side = "both"
-temperature = 1.5
-[output]
-frames = 4
-events = true
-checkpoint_every = 0.02
-""",
+walls = [{ axis = "z", side = "low", epsilon = 0.9, \
+           motion = { amplitude = 0.2, frequency = 1.7, phase = 0.4 } },
+         { axis = "y", side = "both", temperature = 1.5 }]
+""" + OUTPUT,
     "driving": """
 needles.box = 7
 collisions = { epsilon = 0.8, tc_relative = 1e-3 }
 driving.kicks = { every = 0.05, translational = 1, rotational = 2 }
 driving.andersen = { rate = 0.3, temperature = 2 }
 until.time = 20.03
-[[species]]
-name = "short"
-count = 150
-length = 0.7
-[[species]]
-name = "long"
-count = 60
-mass = 3
-[output]
-frames = 4
-events = true
-checkpoint_every = 0.02
-observables = ["displacement", "collision_statistics"]
-""",
+species = [{ name = "short", count = 150, length = 0.7 }, { name = "long", count = 60, mass = 3 }]
+""" + OUTPUT + 'observables = ["displacement", "collision_statistics"]',
     "rods": """
 needles = { count = 200, box = [7, 7, 6], diameter = 0.2 }
 collisions = { epsilon = 0.9, tc_relative = 1e-3 }
 driving.andersen = { rate = 0.3, temperature = 1 }
 until.time = 15.02
-[[walls]]
-axis = "z"
-side = "both"
-[output]
-frames = 4
-events = true
-checkpoint_every = 0.02
-observables = ["wall_profiles", "centre_of_mass"]
-""",
+walls = [{ axis = "z", side = "both" }]
+""" + OUTPUT + 'observables = ["wall_profiles", "centre_of_mass"]',
     "sliding": """
 needles = { count = 250, box = [5, 5, 6] }
 collisions = { epsilon = 0.4, sliding = true }
 driving.andersen = { rate = 0.3, temperature = 1 }
 until.time = 8.02
-[[walls]]
-axis = "z"
-side = "both"
-[output]
-frames = 4
-events = true
-checkpoint_every = 0.02
-observables = ["displacement", "collision_statistics"]
-"""}
+walls = [{ axis = "z", side = "both" }]
+""" + OUTPUT + 'observables = ["displacement", "collision_statistics"]'}
 
 # The datasets whose lengths are the numbers of complete rows.
 TABLES = ("series/step", "particles/needles/position/step", "events/time")

@@ -17,9 +17,7 @@ from files import complete_rows, contents, open_growing, require_prefix
 SCENE = """
 needles = { count = 100, box = 5 }
 until.wall_s = 300
-[output]
-series_every = 1000
-checkpoint_every = 1e6
+output = { series_every = 1000, checkpoint_every = 1e6 }
 """
 
 

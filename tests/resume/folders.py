@@ -23,10 +23,7 @@ SCENE = """
 needles = { count = 200, box = 6 }
 collisions = { epsilon = 0.8, tc_relative = 1e-3 }
 until.collisions_per_needle = 400
-[output]
-frames = 1
-events = true
-checkpoint_every = 0.02
+output = { frames = 1, events = true, checkpoint_every = 0.02 }
 """
 NOBODY = 65534
 

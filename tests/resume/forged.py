@@ -26,10 +26,7 @@ SCENE = """
 needles = { count = 12, box = 2.5, seed = 4 }
 collisions = { %s }
 until.collisions_per_needle = 20
-[output]
-frames = 2
-events = true
-observables = ["displacement", "collision_statistics"]
+output = { frames = 2, events = true, observables = ["displacement", "collision_statistics"] }
 """
 RULES = {"contact time": "epsilon = 0.8, tc_relative = 1e-2",
          "sliding": "epsilon = 0.3, sliding = true"}

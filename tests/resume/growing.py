@@ -20,11 +20,7 @@ needles = { count = 100, box = 5.4 }
 collisions.epsilon = 0.9
 collisions.tc_relative = 1e-3
 until.energy_ratio = 1e-300
-[output]
-series_every = 0.01
-events = true
-frames = 20000
-checkpoint_every = 1e6
+output = { series_every = 0.01, events = true, frames = 20000, checkpoint_every = 1e6 }
 """
 SECONDS = 4  # of reading, and half of it of opening
 

@@ -11,6 +11,7 @@
 #include "src/runs/prepared_run.h"
 #include "src/runs/replay.h"
 #include "tests/runs/silent.h"
+#include "tests/support/message_of.h"
 #include "tests/support/runs.h"
 #include "tests/support/temporary_folder.h"
 
@@ -71,18 +72,12 @@ TEST_F(Bundle, AStateBeforeAnEventThatCannotBeIsSaved) {
 
 TEST_F(Bundle, OfARunInPiecesIsNamedInTheError) {
   PreparedRun run(far_away(), false);
-  try {
-    for (int n = 1; n <= 100; ++n) {
-      run.advance({.time = {}, .collisions_per_needle = n, .energy_ratio = {}, .wall_s = {}},
-                  monitor);
-    }
-    FAIL() << "expected an error";
-  } catch (const InvalidStateError& error) {
-    const std::string message = error.what();
-    EXPECT_TRUE(
-        message.ends_with("; needlework replay " + scene.output.file + ".failure shows it again"))
-        << message;
-  }
+  const std::string message = test::message_of<InvalidStateError>([&] {
+    for (int n = 1; n <= 100; ++n) run.advance(test::until_collisions(n), monitor);
+  });
+  EXPECT_TRUE(
+      message.ends_with("; needlework replay " + scene.output.file + ".failure shows it again"))
+      << message;
   EXPECT_TRUE(Replay(scene.output.file + ".failure", 0).drive(monitor).same);
   EXPECT_THROW(run.advance(scene.until, monitor), InvalidStateError) << "it cannot go on";
   EXPECT_EQ(run.why_not_saved(), "");
@@ -92,7 +87,7 @@ TEST_F(Bundle, OfARunInPiecesIsNamedInTheError) {
 // A defect outside the engine, which a replay does not meet.
 TEST_F(Bundle, OfAnyDefectIsKeptAndAReplayWithoutItPasses) {
   PreparedRun run(complete_scene(scene), false, "scene");
-  run.advance({.time = {}, .collisions_per_needle = 2, .energy_ratio = {}, .wall_s = {}}, monitor);
+  run.advance(test::until_collisions(2), monitor);
   run.simulation().on_collision([](const Collision&) { throw std::logic_error("a defect"); });
   const RunResult result = run.drive(monitor);
   EXPECT_EQ(result.failure, "unexpected error: a defect");
@@ -112,13 +107,9 @@ TEST_F(Bundle, OfADefectInARunInPiecesIsNamedInTheError) {
   PreparedRun run(complete_scene(scene), false);
   run.advance(from_now({.collisions = 20}, run.simulation()), monitor);
   run.simulation().on_collision([](const Collision&) { throw std::logic_error("a defect"); });
-  try {
-    run.advance(scene.until, monitor);
-    FAIL() << "expected an error";
-  } catch (const UnfinishedEventError& error) {
-    EXPECT_EQ(error.what(), "unexpected error: a defect; needlework replay " + scene.output.file +
-                                ".failure shows it again");
-  }
+  EXPECT_EQ(test::message_of<UnfinishedEventError>([&] { run.advance(scene.until, monitor); }),
+            "unexpected error: a defect; needlework replay " + scene.output.file +
+                ".failure shows it again");
   EXPECT_NE(run.why_not_saved(), "");
   run.close();
   const CheckpointFiles files(scene.output.file);

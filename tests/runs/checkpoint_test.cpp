@@ -10,8 +10,10 @@
 
 #include "needlework/error.h"
 #include "needlework/parse.h"
+#include "tests/support/contains.h"
 #include "tests/support/runs.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/whole_file.h"
 
 namespace needlework::runs {
 namespace {
@@ -20,16 +22,12 @@ namespace fs = std::filesystem;
 
 RunCheckpoint sample(double time) {
   RunCheckpoint out;
-  out.scene = parse_scene(R"(
-title = "all kinds of keys"
+  out.scene = parse_scene(R"(title = "all kinds of keys"
 needles = { box = [7, 8, 9], seed = 12 }
 collisions = { epsilon = 0.9, beta = 0.1, tc = 0.01 }
 engine = { search = "capsules", threads = 2, isa = "avx2", root_tolerance = 1e-9 }
 until = { time = 3, collisions_per_needle = 5, wall_s = 7 }
-[[species]]
-name = "a"
-count = 20
-length = 0.5
+species = [{ name = "a", count = 20, length = 0.5 }]
 [output]
 frames = [1, 2, 3]
 observables = ["fields", "displacement"]
@@ -57,10 +55,7 @@ class CheckpointFile : public testing::Test {
     }
     return "";
   }
-  std::string bytes() const {
-    std::ifstream in(files.newest(), std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string bytes() const { return test::bytes_of(files.newest()); }
   static std::string mark_of(const std::string& bytes) { return bytes.substr(0, bytes.find('\n')); }
   void put(const std::string& bytes) const {
     std::ofstream(files.newest(), std::ios::binary) << bytes;
@@ -146,7 +141,7 @@ TEST_F(CheckpointFile, CutShortAtAnyByteIsDamaged_long) {
     ASSERT_NE(complaint().find(files.newest()), std::string::npos) << size;
   }
   put(whole + "x");
-  EXPECT_NE(complaint().find(": damaged: "), std::string::npos);
+  EXPECT_TRUE(test::contains(complaint(), ": damaged: "));
 }
 
 TEST_F(CheckpointFile, WithAnyByteChangedIsDamaged_long) {
@@ -184,7 +179,7 @@ TEST_F(CheckpointFile, WithASceneThatNoFileCouldDescribeIsRefused) {
   RunCheckpoint forged = sample(1);
   forged.scene.needles.box[1] = 2e9;
   files.write(forged);
-  EXPECT_NE(complaint().find("needles.box"), std::string::npos) << complaint();
+  EXPECT_TRUE(test::contains(complaint(), "needles.box"));
 }
 
 // Ten gigabytes that take no place on the disk.

@@ -8,25 +8,24 @@
 #include "src/io/contents.h"
 #include "src/runs/prepared_run.h"
 #include "tests/runs/silent.h"
+#include "tests/support/contains.h"
 #include "tests/support/runs.h"
-#include "tests/support/temporary_folder.h"
 
 namespace needlework::runs {
 namespace {
 
-TEST(ContactsOutput, RowsAndSeriesAreThoseOfTheCounts) {
-  const test::TemporaryFolder folder;
-  Silent monitor;
+using ContactsOutput = InRunFolder;
+
+TEST_F(ContactsOutput, RowsAndSeriesAreThoseOfTheCounts) {
   Scene scene = test::scene_of(150, 5, 4);
   scene.collisions.epsilon = 0.3;
   scene.collisions.sliding = true;
-  scene.output.file = folder.path() / "run.h5";
+  scene.output.file = file;
   scene.output.events = true;
   scene.output.series_every = 0.5;
   scene.until.time = 3;
   PreparedRun run(complete_scene(scene), false);
-  run.advance(run.scene().until, monitor);
-  run.close();
+  finish(run);
 
   const SlidingContacts counted = *run.simulation().sliding_contacts();
   const io::Contents contents(scene.output.file);
@@ -48,8 +47,7 @@ TEST(ContactsOutput, RowsAndSeriesAreThoseOfTheCounts) {
   EXPECT_EQ(last("share"), 2 * counted.time / (150 * 3.0));
   EXPECT_TRUE(std::isnan(contents.numbers("/series/contacts/share/value").front()));
   // A dataset of that name is not the time of the samples.
-  EXPECT_NE(io::describe(scene.output.file).find("    time/value"), std::string::npos)
-      << io::describe(scene.output.file);
+  EXPECT_TRUE(test::contains(io::describe(scene.output.file), "    time/value"));
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 #include "src/runs/prepared_run.h"
 #include "src/trajectory/saved_totals.h"
 #include "tests/runs/silent.h"
+#include "tests/support/contains.h"
+#include "tests/support/message_of.h"
 #include "tests/support/runs.h"
 #include "tests/support/saved_gas.h"
 #include "tests/support/temporary_folder.h"
@@ -30,12 +32,7 @@ class ContinuedRun : public testing::Test {
     return CheckpointFiles(scene.output.file).latest().checkpoint;
   }
   static std::string complaint_about(RunCheckpoint checkpoint) {
-    try {
-      PreparedRun run(std::move(checkpoint));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return test::message_of<InputError>([&] { PreparedRun run(std::move(checkpoint)); });
   }
 
   const test::TemporaryFolder folder;
@@ -69,7 +66,7 @@ TEST_F(ContinuedRun, HasTheLastSampleOfARunThatHasBegun) {
   const auto at = saved.observation.find(one);
   ASSERT_NE(at, std::string::npos);
   saved.observation.replace(at, one.size(), none);
-  EXPECT_NE(complaint_about(saved).find("its parts do not belong together"), std::string::npos);
+  EXPECT_TRUE(test::contains(complaint_about(saved), "its parts do not belong together"));
 }
 
 // A replay shows nobody the course, and a function that is called for each collision costs time.

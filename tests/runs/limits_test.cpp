@@ -20,25 +20,6 @@ Simulation cooling_gas() {
   return Simulation(scene);
 }
 
-TEST(Limits, CountFromTheStartOrFromNow) {
-  Simulation simulation = cooling_gas();
-  EXPECT_EQ(simulation.advance(from_now({.collisions = 100}, simulation)), Stop::collisions);
-  EXPECT_EQ(simulation.collisions(), 100u);
-  simulation.advance(from_start({.collisions = 107}, simulation));
-  EXPECT_EQ(simulation.collisions(), 107u);
-  simulation.advance(from_now({.collisions_per_needle = 0.12}, simulation));
-  EXPECT_EQ(simulation.collisions(), 110u);
-
-  const double begin = simulation.time();
-  EXPECT_EQ(simulation.advance(from_now({.time = 0.25}, simulation)), Stop::time);
-  EXPECT_NEAR(simulation.time(), begin + 0.25, 1e-12);
-  const double energy = simulation.totals().energy;
-  EXPECT_EQ(simulation.advance(from_now({.energy_ratio = 0.9}, simulation)), Stop::energy);
-  EXPECT_LE(simulation.totals().energy, 0.9 * energy);
-  EXPECT_GT(simulation.totals().energy, 0.8 * energy);
-  EXPECT_EQ(simulation.advance(from_start({.time = 0.1}, simulation)), Stop::time);
-}
-
 // For 49 needles 2 n / 49 * 49 / 2 is not always n in double.
 TEST(Limits, AnyNumberOfCollisionsIsMetExactly) {
   Simulation simulation(test::scene_of(49, 5));
@@ -82,15 +63,6 @@ TEST(Limits, MayBeInfinite) {
     EXPECT_EQ(simulation.advance(from_now({.energy_ratio = ratio}, simulation)),
               Stop::nothing_can_happen);
   }
-}
-
-TEST(Limits, RefuseWhatCannotBeMeant) {
-  const Simulation simulation = cooling_gas();
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(from_now({}, simulation), InputError);
-  EXPECT_THROW(from_start({.time = -1}, simulation), InputError);
-  EXPECT_THROW(from_now({.energy_ratio = nan}, simulation), InputError);
-  EXPECT_THROW(from_start({.wall_s = -0.5}, simulation), InputError);
 }
 
 }  // namespace

@@ -10,18 +10,16 @@
 namespace needlework::runs {
 namespace {
 
-Scene::Until collisions(double per_needle) {
-  return {.time = {}, .collisions_per_needle = per_needle, .energy_ratio = {}, .wall_s = {}};
-}
+using test::until_collisions;
 
 TEST(Pace, OfARunThatIsContinuedIsThatOfThisProcess) {
   const Scene scene = test::scene_of(50, 5);
   Simulation simulation(scene);
   const Totals initial = simulation.totals();
-  simulation.advance(collisions(5));
-  const Pace pace(simulation, scene, collisions(10), initial);
+  simulation.advance(until_collisions(5));
+  const Pace pace(simulation, scene, until_collisions(10), initial);
   EXPECT_TRUE(std::isinf(pace.after(1).left)) << "nothing is known yet";
-  simulation.advance(collisions(7.5));
+  simulation.advance(until_collisions(7.5));
   const Progress progress = pace.after(4);
   const auto done = static_cast<double>(progress.now.collisions);
   EXPECT_NEAR(progress.fraction, 0.75, 0.01);
@@ -34,8 +32,8 @@ TEST(Pace, MeasuresTheDriftOfMomentum) {
   scene.species = {{.name = "heavy", .count = 50, .mass = 4}};
   Simulation simulation(scene);
   const Totals initial = simulation.totals();
-  const Pace pace(simulation, scene, collisions(10), initial);
-  simulation.advance(collisions(10));
+  const Pace pace(simulation, scene, until_collisions(10), initial);
+  simulation.advance(until_collisions(10));
   EXPECT_LT(pace.after(1).momentum_drift, 1e-13);
   // All needles 0.3 faster along x: P grows by N m 0.3.
   const State state = simulation.copy();

@@ -46,22 +46,6 @@ TEST(PreparedRun, WritesTheSameSeriesInOnePieceAndInMany) {
   }
 }
 
-TEST(PreparedRun, PassesOnEveryCollisionOnceInBatches) {
-  PreparedRun run(complete_scene(cooling_scene("")), false);
-  std::vector<double> times;
-  std::vector<std::size_t> sizes;
-  run.on_collisions(16, [&](std::span<const Collision> batch) {
-    sizes.push_back(batch.size());
-    for (const Collision& collision : batch) times.push_back(collision.time);
-  });
-  Silent monitor;
-  run.advance(from_now({.collisions = 40}, run.simulation()), monitor);
-  EXPECT_EQ(sizes, (std::vector<std::size_t>{16, 16, 8}));
-  run.advance(from_now({.collisions = 40}, run.simulation()), monitor);
-  EXPECT_EQ(times.size(), 80u);
-  EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
-}
-
 TEST(PreparedRun, StopsWhenTheCallerThrowsAndGoesOnWithoutALoss) {
   PreparedRun run(complete_scene(cooling_scene("")), false);
   std::size_t seen = 0;
@@ -100,14 +84,6 @@ TEST(Batches, AreNeverLargerThanAskedForAlsoAfterAFailure) {
   batches.add({});
   batches.flush();
   EXPECT_EQ(sizes, (std::vector<std::size_t>{10, 10, 6}));
-}
-
-TEST(Simulation, IsInterruptedInTheNextCallIfNoneIsRunning) {
-  Simulation simulation(test::scene_of(50, 5));
-  simulation.interrupt();
-  EXPECT_EQ(simulation.advance(from_now({.collisions = 5}, simulation)), Stop::interrupted);
-  EXPECT_EQ(simulation.advance(from_start({.collisions = 5}, simulation)), Stop::collisions);
-  EXPECT_EQ(simulation.collisions(), 5u);
 }
 
 // Two programs that continue one run: the one that comes later must not take rows away.

@@ -7,6 +7,8 @@
 #include <fstream>
 
 #include "needlework/error.h"
+#include "tests/support/contains.h"
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace needlework::runs::sweep {
@@ -27,16 +29,11 @@ class GridFile : public testing::Test {
   }
   // The message of the error without the folder.
   std::string error(const std::string& text) const {
-    try {
-      read(text);
-    } catch (const InputError& error) {
-      std::string message = error.what();
-      const std::string prefix = folder_.string() + "/";
-      for (auto at = message.find(prefix); at != message.npos; at = message.find(prefix))
-        message.erase(at, prefix.size());
-      return message;
-    }
-    return "none";
+    std::string message = test::message_of<InputError>([&] { read(text); });
+    const std::string prefix = folder_.string() + "/";
+    for (auto at = message.find(prefix); at != message.npos; at = message.find(prefix))
+      message.erase(at, prefix.size());
+    return message;
   }
 
  private:
@@ -69,17 +66,16 @@ out = "there"
   EXPECT_EQ(one.scene.collisions.epsilon, 1);
   EXPECT_EQ(*grid.value(0, 4).as<std::int64_t>(), 1);
   EXPECT_EQ(*grid.value(1, 4).as<std::int64_t>(), 20);
-  EXPECT_NE(one.scene.text.find("# --set needles.count=20\n"), std::string::npos);
+  EXPECT_TRUE(test::contains(one.scene.text, "# --set needles.count=20\n"));
 }
 
 TEST_F(GridFile, MayHoldItsSceneItself) {
   const Grid grid = read(R"(title = "both"
 seeds = { first = 8, count = 3 }
 needles = { count = 7, box = [5, 6, 7] }
+until.time = 2
 [parameters]
 "output.frames" = [[1, 2], 3]
-[until]
-time = 2
 )");
   ASSERT_EQ(grid.members.size(), 6u);
   EXPECT_EQ(grid.members[5].name, "frames=3,seed=10");
@@ -88,7 +84,7 @@ time = 2
   EXPECT_EQ(scene.needles.box[2], 7);
   EXPECT_EQ(scene.output.frame_times, (std::vector<double>{1, 2}));
   EXPECT_EQ(scene.places.at("until.time").substr(scene.places.at("until.time").find(": ")),
-            ": line 7: until.time = 2");
+            ": line 4: until.time = 2");
 }
 
 TEST_F(GridFile, VariesKeysOfTablesAndOfEntries) {
@@ -96,16 +92,11 @@ TEST_F(GridFile, VariesKeysOfTablesAndOfEntries) {
 needles = { count = 7, box = [5, 6, 7] }
 until.time = 2
 driving.kicks.every = 1
+walls = [{ axis = "z", side = "low", motion = { amplitude = 1, frequency = 3 } },
+         { axis = "z", side = "high" }]
 [parameters]
 "driving.kicks.every" = [0.5, 2]
 "walls.z-low.motion.amplitude" = [0.25, 0.5]
-[[walls]]
-axis = "z"
-side = "low"
-motion = { amplitude = 1, frequency = 3 }
-[[walls]]
-axis = "z"
-side = "high"
 )");
   ASSERT_EQ(grid.members.size(), 4u);
   EXPECT_EQ(grid.members[3].name, "kicks.every=2,z-low.motion.amplitude=0.5,seed=8");

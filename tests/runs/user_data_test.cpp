@@ -11,11 +11,13 @@
 #include "src/runs/load_checkpoint.h"
 #include "src/runs/prepared_run.h"
 #include "src/runs/state_file.h"
+#include "tests/runs/silent.h"
 #include "tests/support/runs.h"
-#include "tests/support/temporary_folder.h"
 
 namespace needlework::runs {
 namespace {
+
+using UserDataOfARun = InRunFolder;
 
 const UserData notes{UserData::Kind::json, R"({"text": "wärmer", "n": 3})"};
 const UserData generator{UserData::Kind::bytes, std::string("\0\xff\n", 3)};
@@ -45,9 +47,8 @@ UserDataByName data_in(const std::string& file) {
   return data;
 }
 
-TEST(UserDataOfARun, IsInItsFileAndInTheStateThatItWrites) {
-  const test::TemporaryFolder folder;
-  const std::string file = folder.path() / "run.h5", state = folder.path() / "state.h5";
+TEST_F(UserDataOfARun, IsInItsFileAndInTheStateThatItWrites) {
+  const std::string state = folder.path() / "state.h5";
   PreparedRun run(complete_scene(scene_with(file)), false);
   run.set_data("notes", UserData{UserData::Kind::bytes, "first"});
   run.set_data("generator", generator);
@@ -64,9 +65,7 @@ TEST(UserDataOfARun, IsInItsFileAndInTheStateThatItWrites) {
   EXPECT_EQ(io::Contents(file).shape("/user_data/size").at(0), 5u);
 }
 
-TEST(UserDataOfARun, ComesBackWithItsCheckpoint) {
-  const test::TemporaryFolder folder;
-  const std::string file = folder.path() / "run.h5";
+TEST_F(UserDataOfARun, ComesBackWithItsCheckpoint) {
   {
     PreparedRun run(complete_scene(scene_with(file)), false);
     run.set_data("notes", notes);
@@ -81,7 +80,7 @@ TEST(UserDataOfARun, ComesBackWithItsCheckpoint) {
   EXPECT_EQ(data_in(file), (UserDataByName{{"notes", notes}, {"generator", notes}}));
 }
 
-TEST(UserDataOfARun, IsRefusedIfItCannotBeCarried) {
+TEST_F(UserDataOfARun, IsRefusedIfItCannotBeCarried) {
   PreparedRun run(complete_scene(scene_with("")), false);
   for (const std::string& name :
        {std::string(), std::string(65, 'x'), std::string("a\nb"), std::string("\xff")}) {

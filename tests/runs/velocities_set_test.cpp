@@ -11,10 +11,11 @@
 #include "src/runs/prepared_run.h"
 #include "tests/runs/silent.h"
 #include "tests/support/runs.h"
-#include "tests/support/temporary_folder.h"
 
 namespace needlework::runs {
 namespace {
+
+using VelocitiesSet = InRunFolder;
 
 Scene sampled_scene(const std::string& file) {
   Scene scene = test::scene_of(60, 5);
@@ -27,9 +28,7 @@ Scene sampled_scene(const std::string& file) {
 
 void run_to(PreparedRun& run, double time) {
   Silent monitor;
-  Scene::Until until;
-  until.time = time;
-  run.advance(until, monitor);
+  run.advance(test::until_time(time), monitor);
 }
 
 // Doubles all velocities, which takes the energy to four times what it was.
@@ -47,9 +46,7 @@ std::size_t rows_at(const std::vector<double>& times, double time) {
   return static_cast<std::size_t>(std::count(times.begin(), times.end(), time));
 }
 
-TEST(VelocitiesSet, AreRecordedWithTheEnergyBeforeAndAfter) {
-  const test::TemporaryFolder folder;
-  const std::string file = folder.path() / "run.h5";
+TEST_F(VelocitiesSet, AreRecordedWithTheEnergyBeforeAndAfter) {
   PreparedRun run(complete_scene(sampled_scene(file)), false);
   EXPECT_FALSE(run.velocities_set());
   run_to(run, 1.5);
@@ -71,9 +68,7 @@ TEST(VelocitiesSet, AreRecordedWithTheEnergyBeforeAndAfter) {
   EXPECT_EQ(contents.shape("/velocities_set/momentum"), (std::vector<std::size_t>{2, 2, 3}));
 }
 
-TEST(VelocitiesSet, LeaveTheoryOutFromThenOn) {
-  const test::TemporaryFolder folder;
-  const std::string file = folder.path() / "run.h5";
+TEST_F(VelocitiesSet, LeaveTheoryOutFromThenOn) {
   {
     PreparedRun run(complete_scene(sampled_scene(file)), false);
     run_to(run, 2.5);
@@ -94,9 +89,7 @@ TEST(VelocitiesSet, LeaveTheoryOutFromThenOn) {
   }
 }
 
-TEST(VelocitiesSet, AreInASampleAndAFrameOfThatInstant) {
-  const test::TemporaryFolder folder;
-  const std::string file = folder.path() / "run.h5";
+TEST_F(VelocitiesSet, AreInASampleAndAFrameOfThatInstant) {
   PreparedRun run(complete_scene(sampled_scene(file)), false);
   run_to(run, 2);  // when both are due
   heat(run);
@@ -111,9 +104,7 @@ TEST(VelocitiesSet, AreInASampleAndAFrameOfThatInstant) {
   EXPECT_EQ(contents.numbers("/observables/energy")[1], after);
 }
 
-TEST(VelocitiesSet, LeaveASampleBeforeThemIfItIsTaken) {
-  const test::TemporaryFolder folder;
-  const std::string file = folder.path() / "run.h5";
+TEST_F(VelocitiesSet, LeaveASampleBeforeThemIfItIsTaken) {
   PreparedRun run(complete_scene(sampled_scene(file)), false);
   run_to(run, 2);
   const double before = run.simulation().totals().energy;
@@ -132,9 +123,7 @@ TEST(VelocitiesSet, LeaveASampleBeforeThemIfItIsTaken) {
   EXPECT_EQ(rows_at(contents.numbers("/particles/needles/position/time"), 2), 2u);
 }
 
-TEST(VelocitiesSet, AreInTheSampleOfTheEnd) {
-  const test::TemporaryFolder folder;
-  const std::string file = folder.path() / "run.h5";
+TEST_F(VelocitiesSet, AreInTheSampleOfTheEnd) {
   PreparedRun run(complete_scene(sampled_scene(file)), false);
   run_to(run, 1.5);
   run.sample(false);

@@ -12,10 +12,11 @@
 #include "tests/runs/silent.h"
 #include "tests/support/real.h"
 #include "tests/support/runs.h"
-#include "tests/support/temporary_folder.h"
 
 namespace needlework::runs {
 namespace {
+
+using WallsOutput = InRunFolder;
 
 // Between walls along z and over a wall along x, to which gravity points.
 Scene walled(const std::string& file = "") {
@@ -38,17 +39,13 @@ Scene walled(const std::string& file = "") {
   return scene;
 }
 
-TEST(WallsOutput, EventsAndTotalsAreThoseOfTheReports) {
-  const test::TemporaryFolder folder;
-  const std::string file = folder.path() / "run.h5";
-  Silent monitor;
+TEST_F(WallsOutput, EventsAndTotalsAreThoseOfTheReports) {
   std::vector<Happening> seen;
   std::size_t collisions = 0;
   PreparedRun run(complete_scene(walled(file)), false);
   run.on_happenings(16, [&](auto batch) { seen.insert(seen.end(), batch.begin(), batch.end()); });
   run.on_collisions(5, [&](auto batch) { collisions += batch.size(); });
-  run.advance(run.scene().until, monitor);
-  run.close();
+  finish(run);
 
   std::vector<std::uint64_t> hits(3);
   std::vector<test::Wide> impulse(3);
@@ -101,13 +98,14 @@ TEST(WallsOutput, EventsAndTotalsAreThoseOfTheReports) {
   EXPECT_EQ(recorded[2].axis, 0);
   EXPECT_EQ(recorded[1].hits, hits[1]);
   EXPECT_EQ(contents.numbers("/series/collisions/value").back(), of_pairs);
+  // Observables of collisions are of pairs: a hit has no partner and no angle.
+  double sum = 0;  // each row counts since the one before
+  for (const double n : contents.numbers("/series/collision_statistics/collisions/value")) sum += n;
+  EXPECT_EQ(sum, static_cast<double>(of_pairs));
 }
 
 // At each sample, and the pressure is that of the impulses between samples.
-TEST(WallsOutput, BudgetAndPressureAreThoseOfTheReports) {
-  const test::TemporaryFolder folder;
-  const std::string file = folder.path() / "run.h5";
-  Silent monitor;
+TEST_F(WallsOutput, BudgetAndPressureAreThoseOfTheReports) {
   Scene scene = walled(file);
   scene.driving.kicks = {.every = 0.2, .translational = 1, .rotational = 1};
   scene.walls[1].temperature = 2;  // tangential impulses, and normal ones of either sign
@@ -122,8 +120,7 @@ TEST(WallsOutput, BudgetAndPressureAreThoseOfTheReports) {
       impulses.at(h.event.second).at(sample) += sign * h.event.impulse[h.event.second == 2 ? 0 : 2];
     }
   });
-  run.advance(run.scene().until, monitor);
-  run.close();
+  finish(run);
   const io::Contents contents(file);
   const auto energy = contents.numbers("/series/energy/value");
   const auto time = contents.numbers("/series/time");
@@ -153,37 +150,17 @@ TEST(WallsOutput, BudgetAndPressureAreThoseOfTheReports) {
   EXPECT_GT(kicks.back(), 0.5);
 }
 
-// Observables of collisions are of pairs: a hit has no partner and no angle.
-TEST(WallsOutput, ObservablesOfCollisionsKnowNoHits) {
-  const test::TemporaryFolder folder;
-  const std::string file = folder.path() / "run.h5";
-  Silent monitor;
-  PreparedRun run(complete_scene(walled(file)), false);
-  run.advance(run.scene().until, monitor);
-  run.close();
-  const io::Contents contents(file);
-  double sum = 0;  // each row counts since the one before
-  for (const double n : contents.numbers("/series/collision_statistics/collisions/value")) sum += n;
-  EXPECT_EQ(sum, static_cast<double>(run.simulation().collisions()));
-}
-
-TEST(WallsOutput, GoesOnFromACheckpoint) {
-  const test::TemporaryFolder folder;
+TEST_F(WallsOutput, GoesOnFromACheckpoint) {
   const std::string whole = folder.path() / "whole.h5", parts = folder.path() / "parts.h5";
-  Silent monitor;
   PreparedRun undisturbed(complete_scene(walled(whole)), false);
-  undisturbed.advance(undisturbed.scene().until, monitor);
-  undisturbed.close();
+  finish(undisturbed);
   {
     PreparedRun first(complete_scene(walled(parts)), false);
-    Scene::Until until;
-    until.time = 1.7;
-    first.advance(until, monitor);
+    first.advance(test::until_time(1.7), monitor);
     first.close();
   }
   PreparedRun second(load_checkpoint(parts).checkpoint);
-  second.advance(second.scene().until, monitor);
-  second.close();
+  finish(second);
   EXPECT_EQ(second.simulation().trajectory_hash(), undisturbed.simulation().trajectory_hash());
   const auto a = second.simulation().wall_totals(), b = undisturbed.simulation().wall_totals();
   for (std::size_t n = 0; n < 3; ++n) {
@@ -207,28 +184,20 @@ TEST(WallsOutput, GoesOnFromACheckpoint) {
 }
 
 // Heights count from the low edges, and gravity may point to a high wall.
-TEST(WallsOutput, GoesOnWhereHeightsMakeTheEnergyNegative) {
-  const test::TemporaryFolder folder;
-  Silent monitor;
+TEST_F(WallsOutput, GoesOnWhereHeightsMakeTheEnergyNegative) {
   Scene scene = walled(folder.path() / "run.h5");
   scene.forces.gravity[2] = 5;
   PreparedRun first(complete_scene(scene), false);
   EXPECT_LT(first.simulation().initial_energy(), 0);
-  Scene::Until until;
-  until.time = 0.5;
-  first.advance(until, monitor);
+  first.advance(test::until_time(0.5), monitor);
   first.close();
   PreparedRun second(load_checkpoint(scene.output.file).checkpoint);
   EXPECT_EQ(second.simulation().trajectory_hash(), first.simulation().trajectory_hash());
 }
 
-TEST(WallsOutput, BoxesAreNotPeriodicAlongWalledAxes) {
-  const test::TemporaryFolder folder;
-  const std::string file = folder.path() / "run.h5";
-  Silent monitor;
+TEST_F(WallsOutput, BoxesAreNotPeriodicAlongWalledAxes) {
   PreparedRun run(complete_scene(walled(file)), false);
-  run.advance(run.scene().until, monitor);
-  run.close();
+  finish(run);
   const io::FrameFile frames(file);
   const State state = frames.read(frames.count() - 1);
   EXPECT_EQ(state.periodic, (std::array{false, true, false}));

@@ -7,6 +7,8 @@
 
 #include "needlework/error.h"
 #include "needlework/parse.h"
+#include "tests/scene/message.h"
+#include "tests/support/contains.h"
 
 namespace needlework {
 namespace {
@@ -31,12 +33,7 @@ Scene adopted(const std::string& text, const Bodies& bodies) {
 }
 
 std::string refusal_of_state(const std::string& text, const Bodies& bodies) {
-  try {
-    adopted(text, bodies);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { adopted(text, bodies); });
 }
 
 TEST(AdoptedState, SaysItsBodiesWhereTheSceneIsSilent) {
@@ -89,7 +86,7 @@ TEST(AdoptedState, IsNotContradicted) {
          "s.toml: line 5: species.inertia = 3: expected 4, as in f.h5"}}) {
     EXPECT_EQ(refusal_of_state(text, thick_rods), message);
   }
-  EXPECT_EQ(refusal_of_state("[[species]]\nname = \"a\"\ninertia = 4", thick_rods), "accepted");
+  EXPECT_EQ(refusal_of_state("[[species]]\nname = \"a\"\ninertia = 4", thick_rods), "no error");
   EXPECT_EQ(
       refusal_of_state("[[species]]\nname = \"rod\"\n[[species]]\nname = \"sphere\"", two_kinds),
       "s.toml: line 6: species.name = \"sphere\": expected \"ball\", as in f.h5");
@@ -102,10 +99,10 @@ TEST(AdoptedState, IsNotContradicted) {
 }
 
 TEST(AdoptedState, IsOfBodiesThatTheSceneCanSimulate) {
-  EXPECT_NE(refusal_of_state("collisions.beta = 0", thick_rods).find("-1 for rods of finite width"),
-            std::string::npos);
-  EXPECT_NE(refusal_of_state("collisions.sliding = true", thick_rods).find("do not slide"),
-            std::string::npos);
+  EXPECT_TRUE(test::contains(refusal_of_state("collisions.beta = 0", thick_rods),
+                             "-1 for rods of finite width"));
+  EXPECT_TRUE(
+      test::contains(refusal_of_state("collisions.sliding = true", thick_rods), "do not slide"));
   // The room is that of its bodies, not that of needles of length 1.
   const Bodies short_needles{.length = {0.1}, .diameter = {0}, .mass = {1}, .k = {6}};
   Scene scene = parse_scene("initial.file = \"f.h5\"\nuntil.time = 1\nneedles.box = 1", "s.toml");

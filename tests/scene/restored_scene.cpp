@@ -12,15 +12,17 @@
 #include "src/scene/scene_values.h"
 #include "src/scene/schema.h"
 #include "src/scene/validity.h"
+#include "tests/scene/message.h"
+#include "tests/support/contains.h"
 
 namespace needlework {
 namespace {
 
-const char* const rich = R"(
-title = "all kinds of keys"
+const char* const rich = R"(title = "all kinds of keys"
 needles = { count = 20, box = [7, 8, 9], k = 5, seed = 12 }
 initial = { t_tr = 2, t_rot = 3 }
 collisions = { epsilon = 0.9, beta = 0.1, tc = 0.01 }
+until = { time = 3, collisions_per_needle = 5, energy_ratio = 0.1, wall_s = 7 }
 [engine]
 search = "capsules"
 queue = "bucket"
@@ -35,11 +37,6 @@ isa = "avx2"
 cell_side = 2
 capsule_radius = 0.3
 storage = "by-id"
-[until]
-time = 3
-collisions_per_needle = 5
-energy_ratio = 0.1
-wall_s = 7
 [output]
 file = "a.h5"
 series_every = 0.1
@@ -49,21 +46,10 @@ grid = [2, 3, 4]
 events = true
 checkpoint_every = 17
 )";
-const char* const species = R"(
-needles.box = 9
+const char* const species = R"(needles.box = 9
 until.time = 1
-[[species]]
-name = "a"
-count = 7
-length = 0.5
-mass = 3
-k = 2
-t_tr = 2
-t_rot = 0
-[[pairs]]
-between = ["a", "a"]
-epsilon = 0.5
-beta = 0
+species = [{ name = "a", count = 7, length = 0.5, mass = 3, k = 2, t_tr = 2, t_rot = 0 }]
+pairs = [{ between = ["a", "a"], epsilon = 0.5, beta = 0 }]
 )";
 
 const char* const effects = R"(
@@ -112,51 +98,31 @@ TEST(RestoredScene, IsAcceptedIfItWasParsed) {
   }
 }
 
+// Beside what OneValidity.OfACheckpoint refuses.
 TEST(RestoredScene, IsRefusedIfNoFileCouldDescribeIt) {
   const auto complaint = [](const char* text, auto&& change) -> std::string {
     Scene scene = parse_scene(text, "scene.toml");
     change(scene);
-    try {
-      require_restored(scene);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "none";
+    return test::refusal([&] { require_restored(scene); });
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto expect = [&](const char* part, const char* text, auto&& change) {
     const std::string found = complaint(text, change);
-    EXPECT_NE(found.find(part), std::string::npos) << found << " of " << part;
+    EXPECT_TRUE(test::contains(found, part)) << " of ";
   };
-  EXPECT_EQ(complaint(rich, [](Scene&) {}), "none");
+  EXPECT_EQ(complaint(rich, [](Scene&) {}), "no error");
   expect("title = ", rich, [](Scene& s) { s.title = "\x1b[2J"; });
   expect("needles.count = ", rich, [](Scene& s) { s.needles.count = ~std::uint64_t{0}; });
   expect("needles.box = ", rich, [&](Scene& s) { s.needles.box[1] = nan; });
-  expect("needles.box = ", rich, [](Scene& s) { s.needles.box[1] = 2; });
-  expect("needles.k = ", rich, [](Scene& s) { s.needles.k = 0; });
-  expect("initial.t_rot = ", rich, [](Scene& s) { s.initial.t_rot = -1; });
-  expect("collisions.epsilon = ", rich, [](Scene& s) { s.collisions.epsilon = 1.5; });
-  expect("collisions: expected either", rich, [](Scene& s) { s.collisions.tc_relative = 1; });
-  expect("engine.search = ", rich, [](Scene& s) { s.engine.search = "no such"; });
-  expect("engine.threads = ", rich, [](Scene& s) { s.engine.threads = -1; });
-  expect("engine.cell_side = ", rich, [](Scene& s) { s.engine.cell_side = 0; });
   expect("until.time = ", rich, [&](Scene& s) { s.until.time = nan; });
   expect("output.frames = ", rich, [](Scene& s) { s.output.frame_times = {2, 1}; });
   expect("output.grid = ", rich, [](Scene& s) { s.output.grid = {10000, 10000, 1}; });
   expect("output.observables = ", rich, [](Scene& s) { s.output.observables = {"x"}; });
-  expect("output.observables = ", rich, [](Scene& s) { s.output.observables = {"wall_profiles"}; });
   expect("species: expected the count", species, [](Scene& s) { s.needles.count = 8; });
-  expect("species.length = ", species, [](Scene& s) { s.species[0].length = 0; });
-  expect("needles.box = [9, 9, 9]: expected edges of at least 10.05", species,
-         [](Scene& s) { s.species[0].length = 5; });
-  expect("species.name = ", species, [](Scene& s) { s.species.push_back(s.species[0]); });
-  expect("pairs.between = ", species, [](Scene& s) { s.pairs[0].between[1] = "b"; });
   expect("pairs.epsilon = ", species, [](Scene& s) { s.pairs[0].epsilon = 2; });
   expect("walls.axis = ", effects, [](Scene& s) { s.walls[1].axis = "w"; });
-  expect("walls.temperature = ", effects, [](Scene& s) { s.walls[1].temperature = 0; });
   expect("walls.motion.frequency = ", effects, [](Scene& s) { s.walls[0].motion->frequency = 0; });
   expect("forces.gravity = ", effects, [&](Scene& s) { s.forces.gravity[0] = nan; });
-  expect("driving.kicks.every = ", effects, [](Scene& s) { s.driving.kicks->every = 0; });
   expect("text: expected", rich, [](Scene& s) { s.text.resize(max_scene_bytes + 1); });
 }
 

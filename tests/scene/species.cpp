@@ -94,7 +94,6 @@ TEST(Species, CanBeOverridden) {
 TEST(BadSpecies, IsNamedWithItsLine) {
   const std::string count = "expected a whole number in digits, from 0 to 4294967294";
   const std::string length = "expected a number > 0 (from 1e-6 to 1e6), or 0 for spheres";
-  const std::string mass = "expected a number > 0 (from 1e-100 to 1e100)";
   const std::string k = "expected a number > 0 (from 1e-9 to 1e9; 6 is a uniform rod)";
   const std::string temperature = "expected a temperature >= 0 (0, or from 1e-200 to 1e200)";
   const std::string name = "expected a name without control characters, not empty";
@@ -108,8 +107,6 @@ TEST(BadSpecies, IsNamedWithItsLine) {
   };
   const std::string head = "needles.box = 12\nuntil.time = 5\n[[species]]\n";
   const std::vector<std::pair<std::string, std::string>> table = {
-      {least_species + "[[species]]\nname = 'rods'\ncount = 5",
-       "s.toml: line 8: species.name = 'rods': expected a name that no other species has"},
       {least_species + "[[species]]\nname = 'long'",
        "s.toml: species.count of the entry 2 is missing: " + count},
       {head + "name = 'long'\n[[species]]\nname = 'rods'\ncount = 5",
@@ -121,12 +118,6 @@ TEST(BadSpecies, IsNamedWithItsLine) {
       {least_species + "[[species]]\nname = 'long'\ncount = 5\nlength = 7",
        "s.toml: line 1: needles.box = 12: expected edges of at least 14.07 (2.01 needle "
        "lengths), of the longest species"},
-      {least_species + "[[pairs]]\nbetween = ['rods', 'rod']",
-       "s.toml: line 8: pairs.between = ['rods', 'rod']: expected names of two [[species]], among "
-       "rods"},
-      {least_species +
-           "[[pairs]]\nbetween = ['rods', 'rods']\n[[pairs]]\nbetween = ['rods', 'rods']",
-       "s.toml: line 10: pairs.between = ['rods', 'rods']: expected each two species once"},
       {least_species + "[[pairs]]\nepsilon = 1",
        "s.toml: pairs.between is missing: expected an array of the names of two species"},
       {least_species + "[[pairs]]\nbetween = ['rods']",
@@ -138,7 +129,6 @@ TEST(BadSpecies, IsNamedWithItsLine) {
       {"needles.box = 12\nuntil.time = 5\n[species]\nname = 'rods'\ncount = 5",
        "s.toml: line 3: [species]: expected [[species]], in double brackets"},
       {"species.count = 5", "s.toml: line 1: [species]: expected [[species]], in double brackets"},
-      {"[[needles]]\ncount = 5", "s.toml: line 1: [[needles]]: expected [needles], once"},
       {"[[specis]]\ncount = 5",
        "s.toml: line 1: [[specis]]: expected one of the sections needles, species, initial, "
        "collisions, pairs, walls, forces, shear, driving, engine, until, output, did you mean "
@@ -151,24 +141,15 @@ TEST(BadSpecies, IsNamedWithItsLine) {
        "s.toml: line 5: species.name = 'rods': " + not_both},
       {head + "name = 'rods'", "s.toml: species.count is missing: " + count},
       {head + "count = 4", "s.toml: species.name is missing: " + name},
-      {head, "s.toml: species.count is missing: " + count},
       {"until.time = 5\n[[species]]\nname = 'rods'\ncount = 4\n",
        "s.toml: needles.box is missing: expected an edge from 2.01 to 1e9, or an array of three "
        "edges"},
       {head + "name = ''", "s.toml: line 4: species.name = '': " + name},
       {head + "name = 5", "s.toml: line 4: species.name = 5: " + name},
       {head + "count = -1", "s.toml: line 4: species.count = -1: " + count},
-      {head + "count = 1.5", "s.toml: line 4: species.count = 1.5: " + count},
-      {least_species + "length = 0",
-       "s.toml: line 7: species.length = 0: expected a length above 0, or a diameter, which makes "
-       "it a sphere"},
-      {least_species + "length = nan", "s.toml: line 7: species.length = nan: " + length},
       {least_species + "length = 2e6", "s.toml: line 7: species.length = 2e6: " + length},
-      {least_species + "mass = -1", "s.toml: line 7: species.mass = -1: " + mass},
-      {least_species + "mass = inf", "s.toml: line 7: species.mass = inf: " + mass},
       {least_species + "k = 0", "s.toml: line 7: species.k = 0: " + k},
       {least_species + "t_tr = -1", "s.toml: line 7: species.t_tr = -1: " + temperature},
-      {least_species + "t_rot = 1e300", "s.toml: line 7: species.t_rot = 1e300: " + temperature},
       {least_species + "lenght = 2",
        "s.toml: line 7: species.lenght = 2: " + keys + ", did you mean length?"},
       {least_species + "xyzzy = 2", "s.toml: line 7: species.xyzzy = 2: " + keys},
@@ -195,8 +176,6 @@ TEST(BadSpecies, NeedsABoxOfTwiceItsLength) {
   EXPECT_EQ(in_box("0.5", "0.2"), "no error");
   EXPECT_EQ(in_box("0.5", "0.25"),
             line + "0.5: expected edges of at least 0.5025 (2.01 needle lengths)");
-  EXPECT_EQ(in_box("2", "1"),
-            line + "2: expected an edge from 2.01 to 1e9, or an array of three edges");
   EXPECT_EQ(message(least_species, {"species.length=100"}),
             line + "12: expected edges of at least 201 (2.01 needle lengths)");
   EXPECT_EQ(message(least_species + "length = 5", {"needles.box=10"}),
@@ -243,11 +222,6 @@ TEST(Mixture, IsOverriddenByName) {
             "--set species.x.count=3: expected species.NAME.count" + names);
   EXPECT_EQ(message(mixture, {"species.rods.count=-3"}),
             "--set species.rods.count=-3: expected a whole number in digits, from 0 to 4294967294");
-  EXPECT_EQ(message(mixture, {"species.rods.count=4294967294"}),
-            "--set species.rods.count=4294967294: expected at most 4294967294 needles of all "
-            "species, not 4294967298");
-  EXPECT_EQ(message(mixture, {"species.rods.name=long rods"}),
-            "--set species.rods.name=long rods: expected a name that no other species has");
   EXPECT_EQ(message(mixture, {"needles.rods.box=3"}),
             "--set needles.rods.box=3: expected section.key=value");
 }

@@ -8,6 +8,7 @@
 #include "needlework/error.h"
 #include "needlework/parse.h"
 #include "tests/scene/message.h"
+#include "tests/support/contains.h"
 
 namespace needlework {
 namespace {
@@ -74,8 +75,7 @@ TEST(Walls, HaveWhatTheSceneSays) {
     EXPECT_EQ(wall.motion->frequency, 2);
     EXPECT_EQ(wall.motion->phase, 1.5);
     EXPECT_EQ(scene.forces.gravity, (std::array{0.0, 0.0, -2.0}));
-    EXPECT_NE(scene.places.at("walls.motion.phase").find("walls.motion.phase = 1.5"),
-              std::string::npos);
+    EXPECT_TRUE(test::contains(scene.places.at("walls.motion.phase"), "walls.motion.phase = 1.5"));
   }
   EXPECT_EQ(parse_scene(with_walls(both + "temperature = 3"), "s.toml").walls[0].temperature, 3);
 }
@@ -128,14 +128,8 @@ TEST(BadWalls, AreRefused) {
       {"[[walls]]\naxis = 'w'", R"(line 5: walls.axis = 'w': expected "x", "y" or "z")"},
       {"[[walls]]\nside = 'top'",
        R"(line 5: walls.side = 'top': expected "low", "high" or "both")"},
-      {both + "epsilon = 1.5", "line 7: walls.epsilon = 1.5: expected a number from 0 to 1"},
-      {both + "epsilon = nan", "line 7: walls.epsilon = nan: expected a number from 0 to 1"},
-      {both + "temperature = 0",
-       "line 7: walls.temperature = 0: expected a temperature > 0 (from 1e-200 to 1e200)"},
       {both + "motion = { amplitude = -1, frequency = 1 }",
        "line 7: walls.motion.amplitude = -1: expected a length >= 0 (at most 1e9)"},
-      {both + "motion = { amplitude = inf, frequency = 1 }",
-       "line 7: walls.motion.amplitude = inf: expected a length >= 0 (at most 1e9)"},
       {both + "motion = { amplitude = 1, frequency = 0 }",
        "line 7: walls.motion.frequency = 0: expected a number > 0 of cycles per time (from 1e-100 "
        "to 1e100)"},
@@ -172,6 +166,7 @@ std::string wall(const char* axis, const char* side, const std::string& more = "
   return std::string("[[walls]]\naxis = '") + axis + "'\nside = '" + side + "'\n" + more;
 }
 
+// Beside those of invalid_scenes.json.
 TEST(BadWalls, DoNotGoTogether) {
   const std::string at_rest =
       "expected none beside temperature: a thermal wall is at rest, and epsilon and t_c do not "
@@ -180,32 +175,17 @@ TEST(BadWalls, DoNotGoTogether) {
       "expected \"both\", or a second wall along z, or forces.gravity that points to this one: "
       "needles would leave the box at its open side";
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {wall("z", "both") + wall("z", "high"),
-       "line 9: walls.side = 'high': expected no second wall at the high edge of z"},
       {wall("x", "both") + wall("z", "both") + wall("x", "low"),
        "line 12: walls.side = 'low': expected no second wall at the low edge of x"},
-      {wall("z", "both", "epsilon = 1\ntemperature = 2\n"),
-       "line 7: walls.epsilon = 1: " + at_rest},
       {wall("x", "both") + wall("z", "both", "temperature = 2\nepsilon = 0.5\n"),
        "line 11: walls.epsilon = 0.5: " + at_rest},
-      {wall("z", "both", "temperature = 2\nmotion = { amplitude = 1, frequency = 1 }\n"),
-       "line 8: walls.motion.amplitude = 1: " + at_rest},
-      {wall("z", "low"), "line 6: walls.side = 'low': " + open},
       {wall("z", "high"), "line 6: walls.side = 'high': " + open},
       {"forces.gravity = [0, 0, -1]\n" + wall("z", "high"), "line 7: walls.side = 'high': " + open},
       {"forces.gravity = [0, 0, 1]\n" + wall("z", "low"), "line 7: walls.side = 'low': " + open},
-      {"forces.gravity = [0, 0, -1]\n",
-       "line 4: forces.gravity = [0, 0, -1]: expected none along z, which is periodic, or a wall "
-       "with a temperature along another axis: thermal walls brake along their face, and without "
-       "one all needles would gain speed along z together for ever"},
       {"forces.gravity = [1, 0, -1]\n" + wall("z", "low"),
        "line 4: forces.gravity = [1, 0, -1]: expected none along x, which is periodic, or a wall "
        "with a temperature along another axis: thermal walls brake along their face, and without "
        "one all needles would gain speed along x together for ever"},
-      {"until.energy_ratio = 0.1\nforces.gravity = [1, 0, 0]\n" +
-           wall("z", "both", "temperature = 2\n"),
-       "line 4: until.energy_ratio = 0.1: expected another end, such as time: gravity along a "
-       "periodic axis does work all the time, which thermal walls take out"},
   };
   for (const auto& [text, expected] : cases)
     EXPECT_EQ(message(with_walls(text)), "s.toml: " + expected) << text;
@@ -270,16 +250,10 @@ TEST(BadWalls, LeaveNoRoom) {
             "which has walls (one needle length)");
 }
 
-// What is along axes with walls cannot be observed without any.
 TEST(Walls, AreNeededByTheirObservables) {
-  const std::string observed = "output.observables = ['energy', 'wall_profiles']\n";
-  EXPECT_EQ(message(unwalled + observed),
-            "s.toml: line 4: output.observables = ['energy', 'wall_profiles']: expected an entry "
-            "[[walls]] for wall_profiles, which is along axes with walls");
   EXPECT_EQ(message(unwalled, {"output.observables=['centre_of_mass']"}),
             "--set output.observables=['centre_of_mass']: expected an entry [[walls]] for "
             "centre_of_mass, which is along axes with walls");
-  EXPECT_EQ(parse_scene(with_walls(observed + both), "s.toml").output.observables.size(), 2u);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "needlework/parse.h"
 #include "src/scene/check.h"
+#include "tests/support/contains.h"
 
 namespace needlework {
 namespace {
@@ -35,7 +36,7 @@ TEST(Warning, NamesTcRelativeForInelasticNeedlesWithoutIt) {
   const auto list = warnings_of("until.time = 1\ncollisions.epsilon = 0.8");
   ASSERT_EQ(list.size(), 1u);
   EXPECT_TRUE(list[0].starts_with("collisions.epsilon = 0.8: ")) << list[0];
-  EXPECT_NE(list[0].find("collisions.tc_relative"), std::string::npos) << list[0];
+  EXPECT_TRUE(test::contains(list[0], "collisions.tc_relative"));
   EXPECT_EQ(warned_of("until.time = 1\ncollisions = {epsilon = 0.8, tc = 0}"),
             Keys{"collisions.epsilon"});
   EXPECT_EQ(warned_of("until.time = 1\ncollisions.beta = 0"), Keys{});
@@ -52,12 +53,10 @@ TEST(Warning, CallsBodiesByTheirName) {
   };
   const std::string entry = "[[species]]\ncount = 5\nname = ",
                     sphere = "length = 0\ndiameter = 1\n";
-  EXPECT_NE(warning_of(entry + "'a'\n").find(": inelastic needles can"), std::string::npos);
-  EXPECT_NE(warning_of(entry + "'a'\n" + sphere).find(": inelastic spheres can"),
-            std::string::npos);
-  EXPECT_NE(warning_of(entry + "'a'\n" + sphere + entry + "'b'\ndiameter = 1\n")
-                .find(": inelastic rods can"),
-            std::string::npos);
+  EXPECT_TRUE(test::contains(warning_of(entry + "'a'\n"), ": inelastic needles can"));
+  EXPECT_TRUE(test::contains(warning_of(entry + "'a'\n" + sphere), ": inelastic spheres can"));
+  EXPECT_TRUE(test::contains(warning_of(entry + "'a'\n" + sphere + entry + "'b'\ndiameter = 1\n"),
+                             ": inelastic rods can"));
 }
 
 TEST(Warning, IsGivenForAContactTimeThatCannotHelp) {

@@ -15,6 +15,7 @@
 #include "needlework/simulation.h"
 #include "src/json/base64.h"
 #include "src/serve/server.h"
+#include "tests/support/contains.h"
 #include "tests/support/temporary_folder.h"
 
 namespace needlework::serve {
@@ -380,7 +381,7 @@ TEST(Serve, ContinuesTheRunOfAFile) {
   std::filesystem::resize_file(output + ".checkpoint", 1000);
   auto third =
       answers_to({{{"do", "resume"}, {"file", output}}, {{"do", "run_until"}, {"simulation", 1}}});
-  EXPECT_NE(third[0].value("warning", "").find("damaged"), std::string::npos) << third[0];
+  EXPECT_TRUE(test::contains(third[0].value("warning", ""), "damaged")) << third[0];
   EXPECT_EQ(third[1]["trajectory_hash"], hash_of_whole_run());
 }
 
@@ -396,7 +397,7 @@ TEST(Serve, DoesNotReplaceAFileThatIsBeingWritten) {
   const std::string refusal = "cannot be replaced: another program or simulation has the file open";
   for (const std::size_t refused : {1, 3}) {
     EXPECT_EQ(answers[refused]["code"], 5) << answers[refused];
-    EXPECT_NE(answers[refused].dump().find(refusal), std::string::npos) << answers[refused];
+    EXPECT_TRUE(test::contains(answers[refused].dump(), refusal)) << answers[refused];
   }
   for (const std::size_t done : {0, 2, 4, 5, 6})
     EXPECT_EQ(answers[done]["ok"], true) << answers[done];
@@ -480,7 +481,7 @@ TEST(Serve, NamesTheFieldThatIsWrong) {
             "file = \"a\\u0000b.h5\": expected text without zero bytes");
   EXPECT_EQ(message({{"do", "advance"}, {"collisons", 1}}).substr(0, 46),
             "collisons = 1: expected one of the fields do, ");
-  EXPECT_NE(message({{"do", "advance"}}).find("no end condition"), std::string::npos);
+  EXPECT_TRUE(test::contains(message({{"do", "advance"}}), "no end condition"));
   EXPECT_EQ(message({{"do", "totals"}, {"simulation", 2}}),
             "simulation = 2: expected the number of a simulation that is not closed");
   EXPECT_EQ(message({{"do", "velocities"}, {"velocity", "AAA"}}),

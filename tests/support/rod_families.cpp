@@ -136,45 +136,48 @@ struct Drawing {
   double arms[2] = {0, 0};
 };
 
-RodCase any_rods(Random& random) {
+// Again and again, until the rods are apart.
+template <class Draw>
+RodCase until_apart(Random& random, const Draw& draw) {
   for (;;) {
     Drawing d(random);
+    draw(d);
+    if (d.is_apart()) return d.out;
+  }
+}
+
+RodCase any_rods(Random& random) {
+  return until_apart(random, [&](Drawing& d) {
     d.shape();
     d.direct();
     d.out.first.r = rod_normal(random, d.scale);
     d.out.second.r = d.out.first.r + rod_normal(random, 0.6 * d.scale);
     d.move();
-    if (d.is_apart()) return d.out;
-  }
+  });
 }
 
 RodCase contact_of_rods(Random& random) {
-  for (;;) {
-    Drawing d(random);
+  return until_apart(random, [&](Drawing& d) {
     d.shape();
     d.direct();
     d.touch_any();
     d.move();
     d.back(d.time());
-    if (d.is_apart()) return d.out;
-  }
+  });
 }
 
 RodCase parallel_rods(Random& random) {
-  for (;;) {
-    Drawing d(random);
+  return until_apart(random, [&](Drawing& d) {
     d.shape();
     d.direct(power_of_ten(random, -12, -2));
     d.touch_any();
     d.move();
     d.back(d.time() * (random.coin() ? 1e-3 : 1));
-    if (d.is_apart()) return d.out;
-  }
+  });
 }
 
 RodCase exactly_parallel_rods(Random& random) {
-  for (;;) {
-    Drawing d(random);
+  return until_apart(random, [&](Drawing& d) {
     d.shape();
     d.out.first.u = rod_direction(random);
     d.out.second.u = d.out.first.u * sign(random);
@@ -188,13 +191,11 @@ RodCase exactly_parallel_rods(Random& random) {
     const double t = d.time();
     d.out.first.r = centre_after(d.out.first, -t);
     d.out.second.r = centre_after(d.out.second, -t);
-    if (d.is_apart()) return d.out;
-  }
+  });
 }
 
 RodCase collinear_rods(Random& random) {
-  for (;;) {
-    Drawing d(random);
+  return until_apart(random, [&](Drawing& d) {
     d.shape();
     d.out.first.u = rod_direction(random);
     d.out.second.u = d.out.first.u * sign(random);
@@ -204,8 +205,7 @@ RodCase collinear_rods(Random& random) {
     const double t = d.time();
     d.out.first.r = centre_after(d.out.first, -t);
     d.out.second.r = centre_after(d.out.second, -t);
-    if (d.is_apart()) return d.out;
-  }
+  });
 }
 
 RodCase grazing_rods(Random& random) {
@@ -239,8 +239,7 @@ RodCase grazing_rods(Random& random) {
 }
 
 RodCase tip_of_rods(Random& random) {
-  for (;;) {
-    Drawing d(random);
+  return until_apart(random, [&](Drawing& d) {
     d.shape();
     d.direct();
     const double off = power_of_ten(random, -15, -2);
@@ -255,8 +254,7 @@ RodCase tip_of_rods(Random& random) {
     }
     d.move();
     d.back(d.time());
-    if (d.is_apart()) return d.out;
-  }
+  });
 }
 
 RodCase just_collided_rods(Random& random) {
@@ -280,8 +278,7 @@ RodCase just_collided_parallel_rods(Random& random) {
 }
 
 RodCase spheres(Random& random) {
-  for (;;) {
-    Drawing d(random);
+  return until_apart(random, [&](Drawing& d) {
     d.shape();
     d.out.pair.half_first = d.out.pair.half_second = 0;
     d.scale = d.out.pair.distance;
@@ -293,21 +290,18 @@ RodCase spheres(Random& random) {
     } else {
       d.out.first.r = d.out.first.r + rod_normal(random, d.scale);
     }
-    if (d.is_apart()) return d.out;
-  }
+  });
 }
 
 RodCase sphere_and_rod(Random& random) {
-  for (;;) {
-    Drawing d(random);
+  return until_apart(random, [&](Drawing& d) {
     d.shape();
     (random.coin() ? d.out.pair.half_first : d.out.pair.half_second) = 0;
     d.direct();
     d.touch_any();
     d.move();
     d.back(d.time());
-    if (d.is_apart()) return d.out;
-  }
+  });
 }
 
 RodCase just_collided_spheres(Random& random) {
@@ -323,21 +317,18 @@ RodCase just_collided_spheres(Random& random) {
 }
 
 RodCase fast_rods(Random& random) {
-  for (;;) {
-    Drawing d(random);
+  return until_apart(random, [&](Drawing& d) {
     d.shape();
     d.direct();
     d.touch_any();
     d.move(power_of_ten(random, 2, 4));
     d.back(d.time() * 1e-2);
     d.out.horizon = std::min(d.out.horizon, 300 / (d.out.first.omega + d.out.second.omega));
-    if (d.is_apart()) return d.out;
-  }
+  });
 }
 
 RodCase still_rods(Random& random) {
-  for (;;) {
-    Drawing d(random);
+  return until_apart(random, [&](Drawing& d) {
     d.shape();
     d.direct();
     d.touch_any();
@@ -347,13 +338,11 @@ RodCase still_rods(Random& random) {
     if (random.coin()) d.out.second.w = {};
     set_rotation(d.out.second);
     d.back(d.time());
-    if (d.is_apart()) return d.out;
-  }
+  });
 }
 
 RodCase rods_of_unlike_records(Random& random) {
-  for (;;) {
-    Drawing d(random);
+  return until_apart(random, [&](Drawing& d) {
     d.shape();
     d.direct();
     d.touch_any();
@@ -375,20 +364,17 @@ RodCase rods_of_unlike_records(Random& random) {
       rod.r = rod.r + to_double(place);
       d.out.pair.fall = first ? kernels::Fall{gain, place} : kernels::Fall{-gain, -place};
     }
-    if (d.is_apart()) return d.out;
-  }
+  });
 }
 
 RodCase far_rods(Random& random) {
-  for (;;) {
-    Drawing d(random);
+  return until_apart(random, [&](Drawing& d) {
     d.shape(-2, 2);
     d.direct();
     d.touch_any();
     d.move(random.uniform());
     d.back(d.scale * power_of_ten(random, 2, 4));
-    if (d.is_apart()) return d.out;
-  }
+  });
 }
 
 RodCase slow_rods(Random& random) {

@@ -10,6 +10,13 @@ const observables = [
 let browser;
 let samples;
 
+// Runs the scene, which names its file, and makes a page of it.
+function reportOf(name, scene) {
+  write(`${name}.toml`, scene);
+  needlework("run", `${name}.toml`, "--quiet");
+  needlework("report", `${name}.h5`, "-o", `${name}.html`);
+}
+
 before(async () => {
   write("gas.toml", `title = "A gas </script> & more"
 needles = { count = 300, box = 7 }
@@ -34,21 +41,15 @@ out = "sweep"
     machine: "a machine",
     cases: [1, 2, 4].flatMap((n) => ["capsules", "linked-cells"].map((search) => ({ name: `n=${n},N=10/${search}/auto`, us_per_collision: [n, 2 * n] }))),
   }));
-  write("shaken.toml", `title = "Shaken"
+  reportOf("shaken", `title = "Shaken"
 needles = { count = 60, box = [5, 5, 3] }
 forces.gravity = [0, 0, -1]
 collisions = { epsilon = 0.9, tc_relative = 1e-3 }
 until.time = 20
 output = { file = "shaken.h5", series_every = 0.45, frames = [0.25, 0.75], observables = ["wall_profiles", "centre_of_mass"] }
 driving.kicks = { every = 0.7, translational = 0.3, rotational = 0.3 }
-[[walls]]
-axis = "z"
-side = "low"
-epsilon = 0.95
-motion = { amplitude = 0.5, frequency = 1 }
+walls = [{ axis = "z", side = "low", epsilon = 0.95, motion = { amplitude = 0.5, frequency = 1 } }]
 `);
-  needlework("run", "shaken.toml", "--quiet");
-  needlework("report", "shaken.h5", "-o", "shaken.html");
   write("shaken_grid.toml", `scene = "shaken.toml"
 seeds = [1, 2]
 out = "shaken"
@@ -58,54 +59,30 @@ out = "shaken"
 `);
   needlework("sweep", "shaken_grid.toml", "--quiet");
   needlework("report", "shaken/summary.h5", "-o", "shaken_sweep.html");
-  write("layer.toml", `needles = { count = 60, box = [5, 5, 30] }
+  reportOf("layer", `needles = { count = 60, box = [5, 5, 30] }
 forces.gravity = [0, 0, -1]
 collisions = { epsilon = 0.9, tc_relative = 1e-3 }
 until.time = 40
 output = { file = "layer.h5", series_every = 1, frames = [0.0, 20.0, 40.0], observables = ["wall_profiles"] }
-[[walls]]
-axis = "z"
-side = "low"
-temperature = 0.5
+walls = [{ axis = "z", side = "low", temperature = 0.5 }]
 `);
-  needlework("run", "layer.toml", "--quiet");
-  needlework("report", "layer.h5", "-o", "layer.html");
-  write("between.toml", `needles = { count = 60, box = [5, 5, 3] }
+  reportOf("between", `needles = { count = 60, box = [5, 5, 3] }
 until.time = 2
 output.file = "between.h5"
-[[walls]]
-axis = "x"
-side = "both"
-temperature = 2
-[[walls]]
-axis = "z"
-side = "low"
-[[walls]]
-axis = "z"
-side = "high"
+walls = [{ axis = "x", side = "both", temperature = 2 }, { axis = "z", side = "low" }, { axis = "z", side = "high" }]
 `);
-  needlework("run", "between.toml", "--quiet");
-  needlework("report", "between.h5", "-o", "between.html");
   for (const [name, length, diameter] of [["rod", 3, 0.5], ["ball", 0, 0.5], ["wide", 0, 1]]) {
-    write(`${name}.toml`, `needles.box = 8
+    reportOf(name, `needles.box = 8
 until.time = 1
 output.file = "${name}.h5"
-[[species]]
-name = "${name}"
-count = 1
-length = ${length}
-diameter = ${diameter}
+species = [{ name = "${name}", count = 1, length = ${length}, diameter = ${diameter} }]
 `);
-    needlework("run", `${name}.toml`, "--quiet");
-    needlework("report", `${name}.h5`, "-o", `${name}.html`);
   }
-  write("sliding.toml", `needles = { count = 80, box = 4 }
+  reportOf("sliding", `needles = { count = 80, box = 4 }
 collisions = { epsilon = 0.3, sliding = true }
 until.time = 1
 output = { file = "sliding.h5", series_every = 0.125, observables = ["time_correlation"] }
 `);
-  needlework("run", "sliding.toml", "--quiet");
-  needlework("report", "sliding.h5", "-o", "sliding.html");
   needlework("report", "gas.h5", "-o", "gas.html");
   needlework("report", "gas.h5", "other.h5", "sweep/summary.h5", "bench.json", "-o", "all.html");
   samples = Number(needlework("info", "gas.h5").match(/(\d+) samples/)[1]);
@@ -115,6 +92,13 @@ output = { file = "sliding.h5", series_every = 0.125, observables = ["time_corre
 after(async () => {
   await browser?.close();
   cleanUp();
+});
+
+// A test of a page, opened in a browser of its own kind and closed after it.
+const show = (claim, page, look) => test(claim, async () => {
+  const { close, ...opened } = await open(browser, ...page);
+  await look(opened);
+  await close();
 });
 
 const chart = (page, title) => page.locator("figure.chart", { has: page.getByRole("heading", { name: title, exact: true }) });
@@ -148,14 +132,11 @@ test("a page from disk opens without complaints and without the network", async 
   }
 });
 
-test("a title is shown as it is", async () => {
-  const { page, close } = await open(browser, "gas.html");
+show("a title is shown as it is", ["gas.html"], async ({ page }) => {
   assert.equal(await page.locator("h1").textContent(), "A gas </script> & more");
-  await close();
 });
 
-test("curves have the points of the file, and so has the table behind them", async () => {
-  const { page, close } = await open(browser, "gas.html");
+show("curves have the points of the file, and so has the table behind them", ["gas.html"], async ({ page }) => {
   const figure = chart(page, "Cooling curve");
   assert.equal(await figure.getAttribute("data-points"), `${samples} ${samples}`);
   assert.equal(await figure.locator("svg [aria-label=dot] circle").count(), samples - 1); // time 0 has no logarithm
@@ -164,11 +145,9 @@ test("curves have the points of the file, and so has the table behind them", asy
   assert.equal(await figure.locator("tbody tr").count(), samples);
   assert.equal(await figure.locator("caption").textContent(), "Cooling curve");
   assert.equal(await figure.locator("tbody tr").first().locator("td").nth(1).textContent(), "1");
-  await close();
 });
 
-test("each observable of the file has its charts", async () => {
-  const { page, close } = await open(browser, "gas.html");
+show("each observable of the file has its charts", ["gas.html"], async ({ page }) => {
   for (const title of [
     "Ratio of the temperatures", "Order of the flow, S", "Departure from Gaussian velocities", "T_tr by axis", "Nematic order",
     "Mean square displacement", "Repeated collisions", "Needles in a cell", "Alignment with the velocity", "Profile: density",
@@ -177,7 +156,6 @@ test("each observable of the file has its charts", async () => {
     assert.equal(await chart(page, title).count(), 1, title);
     assert.ok((await chart(page, title).locator("svg path, svg circle, svg image").count()) > 0, title);
   }
-  await close();
 });
 
 test("no observable of the file is without a chart", async () => {
@@ -198,12 +176,10 @@ async function tableOf(figure) {
   return figure.locator("tbody tr").evaluateAll((rows) => rows.map((row) => [...row.cells].map((cell) => Number(cell.textContent.replace("−", "-")))));
 }
 
-test("rods have their pressure beside that of an ideal gas", async () => {
-  const { page, close } = await open(browser, "rod.html");
+show("rods have their pressure beside that of an ideal gas", ["rod.html"], async ({ page }) => {
   const last = (await tableOf(chart(page, "Pressure"))).at(-1);
   // A single rod, of the temperature 1 in a box of 8, has no partner.
   for (const pressure of last.slice(-2)) assert.ok(Math.abs(512 * pressure - 1) < 1e-5, `${last}`);
-  await close();
 });
 
 test("contacts are shown over time, and correlations in time over the lag", async () => {
@@ -227,8 +203,7 @@ test("contacts are shown over time, and correlations in time over the lag", asyn
   await cooling.close();
 });
 
-test("pictures of a layer under an open side end where it does", async () => {
-  const { page, close } = await open(browser, "layer.html");
+show("pictures of a layer under an open side end where it does", ["layer.html"], async ({ page }) => {
   await drawn(page);
   const seen = await view(page).evaluate((figure) => {
     const { scene, frames } = figure.view;
@@ -252,20 +227,16 @@ test("pictures of a layer under an open side end where it does", async () => {
   await page.getByLabel("Time of the charts below").fill("0");
   assert.ok(Math.max(...(await ticks()).map(Number)) >= 20, `${await ticks()}`);
   assert.match(await density.locator("figcaption").textContent(), /the axis ends with the needles/);
-  await close();
 });
 
-test("all needles are drawn in one draw call, beside that of the box", async () => {
-  const { page, close } = await open(browser, "gas.html");
+show("all needles are drawn in one draw call, beside that of the box", ["gas.html"], async ({ page }) => {
   const { needles, drawCalls } = await drawn(page);
   assert.equal(needles, 300);
   assert.equal(drawCalls, 2);
   assert.ok((await colours(page)) > 50);
-  await close();
 });
 
-test("walls are drawn where they are, and what bounds the box is said", async () => {
-  const { page, complaints, close } = await open(browser, "shaken.html");
+show("walls are drawn where they are, and what bounds the box is said", ["shaken.html"], async ({ page, complaints }) => {
   const { drawCalls } = await drawn(page);
   assert.equal(drawCalls, 4); // needles, box, sheet and lattice
   const heights = await view(page).evaluate((figure) => [0, 1, 2].map((n) => {
@@ -280,7 +251,6 @@ test("walls are drawn where they are, and what bounds the box is said", async ()
   // The edges of the open side are left out: 8 of 12.
   assert.equal(await view(page).evaluate((figure) => figure.view.scene.box.geometry.getAttribute("position").count), 16);
   assert.deepEqual(complaints, []);
-  await close();
 });
 
 // How many pixels a single rod covers, and the largest number in a row or column of them.
@@ -325,8 +295,7 @@ test("rods and spheres are as wide as they are", async () => {
   assert.ok(areas.wide.count > 2.5 * areas.ball.count, `${areas.wide.count} ${areas.ball.count}`);
 });
 
-test("a ball hides the edges of the box inside and behind it", async () => {
-  const { page, close } = await open(browser, "wide.html");
+show("a ball hides the edges of the box inside and behind it", ["wide.html"], async ({ page }) => {
   await drawn(page);
   // Around the corner that is farthest from the viewer, from which three edges come nearer. They leave
   // the ball in front, where they are 0.8 radii from its middle.
@@ -357,11 +326,9 @@ test("a ball hides the edges of the box inside and behind it", async () => {
   });
   assert.ok(changed > 100, `${changed}`);
   assert.equal(inside, 0);
-  await close();
 });
 
-test("the place of a needle in the table is that in the box, whatever is drawn", async () => {
-  const { page, close } = await open(browser, "shaken.html");
+show("the place of a needle in the table is that in the box, whatever is drawn", ["shaken.html"], async ({ page }) => {
   await drawn(page);
   const { least, high } = await view(page).evaluate((figure) => {
     const columns = figure.view.columns();
@@ -374,22 +341,18 @@ test("the place of a needle in the table is that in the box, whatever is drawn",
   });
   assert.equal(low[0], -0.5);
   assert.ok(low[1] > -0.5);
-  await close();
 });
 
-test("contacts and the time that needles spend in them are told", async () => {
-  const { page, close } = await open(browser, "sliding.html");
+show("contacts and the time that needles spend in them are told", ["sliding.html"], async ({ page }) => {
   const facts = await page.locator(".facts").first().textContent();
   assert.ok(facts.includes("Sliding contactwhere flights are below 0.001 mean free times"), facts);
   assert.ok(!facts.includes("Contact-time rule"), facts);
   const figures = await page.locator(".figures").textContent();
   assert.match(figures, /Contacts: ended by tip\d+Contacts: entered\d+/);
   assert.match(figures, /Contacts: share0\.\d+/);
-  await close();
 });
 
-test("hits, forces and what acts on the gas are told", async () => {
-  const { page, close } = await open(browser, "shaken.html");
+show("hits, forces and what acts on the gas are told", ["shaken.html"], async ({ page }) => {
   const facts = await page.locator(".facts").first().textContent();
   for (const part of ["Boundariesperiodic along x and y", "Wall at z lowε = 0.95, moves by 0.5 sin(2π 1 t)", "Gravity0, 0, −1"]) {
     assert.ok(facts.includes(part), `${part}: ${facts}`);
@@ -404,11 +367,9 @@ test("hits, forces and what acts on the gas are told", async () => {
   assert.match(await chart(page, "Cooling curve").locator("figcaption").textContent(), /that of the weight/);
   const momentum = await chart(page, "Conservation of momentum").locator("figcaption").textContent();
   assert.match(momentum, /along the periodic axes/);
-  await close();
 });
 
-test("walls have pressures, profiles with their means, and a budget of energy that closes", async () => {
-  const { page, close } = await open(browser, "shaken.html");
+show("walls have pressures, profiles with their means, and a budget of energy that closes", ["shaken.html"], async ({ page }) => {
   const legend = (title) => chart(page, title).locator(".legend").textContent();
   assert.match(await legend("Pressure on walls"), /z low.*weight over area/);
   assert.match(await legend("Energy put in and taken out"), /collisions.*kicks.*wall at z low.*change of the energy/);
@@ -441,11 +402,9 @@ test("walls have pressures, profiles with their means, and a budget of energy th
   assert.equal(slabs, 76);
   const needles = (sum * 25 * 9.5) / slabs;
   assert.ok(needles > 15 && needles <= 60, `${needles}`);
-  await close();
 });
 
-test("a sweep has pressures, hits and the budget of its members", async () => {
-  const { page, complaints, close } = await open(browser, "shaken_sweep.html");
+show("a sweep has pressures, hits and the budget of its members", ["shaken_sweep.html"], async ({ page, complaints }) => {
   for (const title of [
     "Hits on the wall at z low", "Pressure on the wall at z low", "Energy put in: wall at z low", "Energy put in: collisions",
     "Energy put in: kicks",
@@ -454,11 +413,9 @@ test("a sweep has pressures, hits and the budget of its members", async () => {
     assert.equal(await chart(page, title).getAttribute("data-points"), "2", title);
   }
   assert.deepEqual(complaints, []);
-  await close();
 });
 
-test("walls on two axes are four, and nothing is open", async () => {
-  const { page, close } = await open(browser, "between.html");
+show("walls on two axes are four, and nothing is open", ["between.html"], async ({ page }) => {
   assert.equal((await drawn(page)).drawCalls, 10);
   const facts = await page.locator(".facts").first().textContent();
   assert.ok(facts.includes("periodic along y, with a thermal wall at x low, a thermal wall at x high, a wall at z low and a wall at z high"), facts);
@@ -466,17 +423,13 @@ test("walls on two axes are four, and nothing is open", async () => {
   assert.equal(await chart(page, "Temperatures by phase").count(), 0); // no wall moves
   assert.ok(facts.includes("Density"));
   assert.equal(await chart(page, "Hits on walls").getAttribute("data-points").then((points) => points.split(" ").length), 4);
-  await close();
 });
 
-test("a periodic box is called so", async () => {
-  const { page, close } = await open(browser, "gas.html");
+show("a periodic box is called so", ["gas.html"], async ({ page }) => {
   assert.match(await view(page).locator("figcaption").textContent(), /Drawn in the box, which is periodic, at the places/);
-  await close();
 });
 
-test("every colouring changes the picture", async () => {
-  const { page, close } = await open(browser, "gas.html");
+show("every colouring changes the picture", ["gas.html"], async ({ page }) => {
   await drawn(page);
   const picture = () => view(page).evaluate((figure) => {
     figure.view.scene.draw();
@@ -488,11 +441,9 @@ test("every colouring changes the picture", async () => {
     pictures.push(await picture());
   }
   assert.equal(new Set(pictures).size, 5);
-  await close();
 });
 
-test("a film shows the flow in colours of two directions, which stay the same", async () => {
-  const { page, close } = await open(browser, "gas.html");
+show("a film shows the flow in colours of two directions, which stay the same", ["gas.html"], async ({ page }) => {
   await drawn(page);
   await view(page).getByLabel("Colour by").selectOption("flow");
   const shown = () => view(page).evaluate((figure) => ({
@@ -514,11 +465,9 @@ test("a film shows the flow in colours of two directions, which stay the same", 
   assert.equal(before.bar, last.bar);
   assert.equal(before.colours, last.colours);
   assert.notDeepEqual(before.values, last.values);
-  await close();
 });
 
-test("frames play and stop", async () => {
-  const { page, close } = await open(browser, "gas.html");
+show("frames play and stop", ["gas.html"], async ({ page }) => {
   const { frame } = await drawn(page);
   await view(page).getByRole("button", { name: "Play" }).click();
   await page.waitForFunction((first) => [...document.querySelectorAll("figure")].find((f) => f.view).view.current !== first, frame);
@@ -526,11 +475,9 @@ test("frames play and stop", async () => {
   const now = await view(page).evaluate((figure) => figure.view.current);
   await page.waitForTimeout(400);
   assert.equal(await view(page).evaluate((figure) => figure.view.current), now);
-  await close();
 });
 
-test("the keyboard turns, zooms, steps and plays", async () => {
-  const { page, close } = await open(browser, "gas.html");
+show("the keyboard turns, zooms, steps and plays", ["gas.html"], async ({ page }) => {
   const { frame } = await drawn(page);
   const camera = () => view(page).evaluate((figure) => figure.view.scene.camera.position.toArray());
   const length = (v) => Math.hypot(...v);
@@ -551,11 +498,9 @@ test("the keyboard turns, zooms, steps and plays", async () => {
   assert.match(await view(page).locator("[aria-live]").first().textContent(), /Frame \d+, time/);
   await page.keyboard.press("Space");
   assert.equal(await view(page).getByRole("button", { name: "Pause" }).count(), 1);
-  await close();
 });
 
-test("the mouse turns the needles", async () => {
-  const { page, close } = await open(browser, "gas.html");
+show("the mouse turns the needles", ["gas.html"], async ({ page }) => {
   await drawn(page);
   const camera = () => view(page).evaluate((figure) => figure.view.scene.camera.position.toArray());
   const start = await camera();
@@ -565,11 +510,9 @@ test("the mouse turns the needles", async () => {
   await page.mouse.move(box.x + box.width / 2 + 60, box.y + box.height / 2, { steps: 4 });
   await page.mouse.up();
   assert.notDeepEqual(await camera(), start);
-  await close();
 });
 
-test("arrow keys read a chart aloud", async () => {
-  const { page, close } = await open(browser, "gas.html");
+show("arrow keys read a chart aloud", ["gas.html"], async ({ page }) => {
   const area = chart(page, "Temperatures").locator(".plot");
   await area.focus();
   await page.keyboard.press("End");
@@ -578,22 +521,18 @@ test("arrow keys read a chart aloud", async () => {
   await page.keyboard.press("ArrowLeft");
   assert.notEqual(await area.locator("[aria-live]").textContent(), spoken);
   assert.equal(await area.locator("svg .reading").count(), 1);
-  await close();
 });
 
-test("the slider moves histograms and fields through time", async () => {
-  const { page, close } = await open(browser, "gas.html");
+show("the slider moves histograms and fields through time", ["gas.html"], async ({ page }) => {
   const shape = () => chart(page, "Pair correlation").locator("svg [aria-label=line] path").first().getAttribute("d");
   const image = () => chart(page, "Fields").locator("svg image").first().getAttribute("href");
   const [curve, field] = [await shape(), await image()];
   await page.getByLabel("Time of the charts below").fill("0");
   assert.notEqual(await shape(), curve);
   assert.notEqual(await image(), field);
-  await close();
 });
 
-test("logarithmic axes can be switched", async () => {
-  const { page, close } = await open(browser, "gas.html");
+show("logarithmic axes can be switched", ["gas.html"], async ({ page }) => {
   const figure = chart(page, "Cooling curve");
   const before = await figure.locator("svg").textContent();
   const button = figure.getByRole("button", { name: "Cooling curve: logarithmic y axis" });
@@ -601,11 +540,9 @@ test("logarithmic axes can be switched", async () => {
   await button.click();
   assert.notEqual(await button.getAttribute("aria-pressed"), pressed);
   assert.notEqual(await figure.locator("svg").textContent(), before);
-  await close();
 });
 
-test("everything that can be used has a name", async () => {
-  const { page, close } = await open(browser, "all.html");
+show("everything that can be used has a name", ["all.html"], async ({ page }) => {
   const nameless = await page.evaluate(() => {
     const named = (e) =>
       e.getAttribute("aria-label") || e.labels?.[0]?.textContent.trim() || e.textContent.trim() ||
@@ -616,15 +553,12 @@ test("everything that can be used has a name", async () => {
   assert.deepEqual(nameless, []);
   const ids = await page.evaluate(() => [...document.querySelectorAll("[id]")].map((e) => e.id));
   assert.equal(new Set(ids).size, ids.length);
-  await close();
 });
 
-test("no level of headings is left out", async () => {
-  const { page, close } = await open(browser, "all.html");
+show("no level of headings is left out", ["all.html"], async ({ page }) => {
   const levels = await page.locator("main h2, main h3, main h4").evaluateAll((all) => all.map((h) => Number(h.tagName[1])));
   assert.ok(levels.length > 20);
   levels.forEach((level, n) => assert.ok(n === 0 || level <= levels[n - 1] + 1, `heading ${n}: ${levels.slice(0, n + 1)}`));
-  await close();
 });
 
 test("texts can be read in both themes", async () => {
@@ -654,8 +588,7 @@ test("texts can be read in both themes", async () => {
   }
 });
 
-test("the theme can be chosen, and the needles follow", async () => {
-  const { page, close } = await open(browser, "gas.html", { colorScheme: "light" });
+show("the theme can be chosen, and the needles follow", ["gas.html", { colorScheme: "light" }], async ({ page }) => {
   await drawn(page);
   const ground = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
   const stage = () => view(page).evaluate((figure) => figure.view.scene.scene.background.getHexString());
@@ -663,7 +596,6 @@ test("the theme can be chosen, and the needles follow", async () => {
   await page.getByLabel("Colours").selectOption("dark");
   assert.notEqual(await ground(), before[0]);
   assert.notEqual(await stage(), before[1]);
-  await close();
 });
 
 test("nothing is wider than a telephone or lost on a large screen", async () => {
@@ -676,8 +608,7 @@ test("nothing is wider than a telephone or lost on a large screen", async () => 
   }
 });
 
-test("a row of results that is not full ends in nothing", async () => {
-  const { page, close } = await open(browser, "gas.html", { viewport: { width: 900, height: 700 } });
+show("a row of results that is not full ends in nothing", ["gas.html", { viewport: { width: 900, height: 700 } }], async ({ page }) => {
   const { last, right, colours } = await page.evaluate(() => {
     const grid = document.querySelector(".figures"), cell = grid.lastElementChild;
     const border = getComputedStyle(grid).borderTopColor;
@@ -689,18 +620,15 @@ test("a row of results that is not full ends in nothing", async () => {
   });
   assert.ok(last < right - 100, `the last row is full: ${last} of ${right}`);
   assert.notEqual(colours.behind, colours.border);
-  await close();
 });
 
-test("nothing moves by itself, and slowly for those who asked for that", async () => {
-  const { page, close } = await open(browser, "gas.html", { reducedMotion: "reduce" });
+show("nothing moves by itself, and slowly for those who asked for that", ["gas.html", { reducedMotion: "reduce" }], async ({ page }) => {
   const { frame } = await drawn(page);
   await page.waitForTimeout(300);
   assert.equal((await drawn(page)).frame, frame);
   await view(page).getByRole("button", { name: "Play" }).click();
   await page.waitForTimeout(500); // a second passes before the first step
   assert.equal(await view(page).evaluate((figure) => figure.view.current), frame);
-  await close();
 });
 
 test("without WebGL a text stands in place of the needles, and their table stays", async () => {
@@ -721,17 +649,14 @@ test("without WebGL a text stands in place of the needles, and their table stays
   await close();
 });
 
-test("a page prints with its needles, in light colours", async () => {
-  const { page, close } = await open(browser, "gas.html", { colorScheme: "dark" });
+show("a page prints with its needles, in light colours", ["gas.html", { colorScheme: "dark" }], async ({ page }) => {
   await drawn(page);
   const pdf = await page.pdf({ format: "A4", printBackground: true });
   assert.ok(pdf.length > 50000);
   assert.match(await view(page).locator("img.printed").getAttribute("src"), /^data:image\/png/);
-  await close();
 });
 
-test("runs, sweeps and benchmarks stand in one page", async () => {
-  const { page, close } = await open(browser, "all.html");
+show("runs, sweeps and benchmarks stand in one page", ["all.html"], async ({ page }) => {
   assert.deepEqual(await page.locator("nav a").count(), 5); // Runs compared, and the four files
   const compared = page.locator("#compared figure", { has: page.getByRole("heading", { name: "Cooling curves" }) });
   assert.equal((await compared.getAttribute("data-points")).split(" ").length, 2);
@@ -739,7 +664,6 @@ test("runs, sweeps and benchmarks stand in one page", async () => {
   assert.equal(await rate.getAttribute("data-points"), "3");
   const bench = page.locator("section").last().locator("figure");
   assert.equal(await bench.getAttribute("data-points"), "3 3");
-  await close();
 });
 
 // Not judged, as it is the machine's: 20000 needles at 800 x 600, drawn by the CPU.
