@@ -83,7 +83,7 @@ struct BoundingVolumes {
   void write_entry(ClassCells& own, Needle i, const Vec3d& centre, const Vec3d& direction,
                    Time now);
   /// All but the half length, which does not depend on the units of time. `elapsed` is the time
-  /// since the needle's record.
+  /// since the needle's record. Motions of spheres have no directors.
   void set_motion(Needle i, double elapsed, const MotionFrame::Path& path, Time now);
   /// The boxes to be added to the record of j, which i has found in this cell of a row, so many
   /// boxes from that of j.
@@ -101,6 +101,7 @@ struct BoundingVolumes {
   LargeArray<kernels::Motion> motions;
   std::unique_ptr<SlidingRows> rows;  ///< if cells slide in rows
   LargeArray<Shift> wraps;            ///< then: boxes subtracted from each record's centre
+  bool are_spheres;                   ///< all bodies, so that no filter reads how they turn
 
  private:
   void carry_rows(Time now);
