@@ -55,7 +55,9 @@ TEST(SphereModel, LetsSpheresPartForGoodOnlyWhereTheyDo) {
     gas.records[a].flight = test::flight(first, {0, 0, 1}, drift + v, {});
     gas.records[b].flight = test::flight(second, {0, 0, 1}, drift, {});
     const bool for_good = std::isinf(model.time_apart(a, b, shift));
-    if (for_good) ASSERT_GT(wide_product(gas, shift), 0) << "seed " << seed << ", pair " << n;
+    if (for_good) {
+      ASSERT_GT(wide_product(gas, shift), 0) << "seed " << seed << ", pair " << n;
+    }
     const bool clear = diameter > 1e-4 && speed > 1e-4;
     parting += clear;
     at_once += clear && for_good;
