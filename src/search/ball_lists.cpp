@@ -112,7 +112,7 @@ kernels::Scan BallLists::look(Needle i, double ahead) {
   count_ = lists_.of(i).size();
   found_.make_room(count_);
   const kernels::Found found = found_.from(0);
-  const NeighbourLists::Fours list = lists_.fours(i);
+  const NeighbourLists::ByFours list = lists_.by_fours(i);
   kernels::FourInts numbers{0, 1, 2, 3};
   for (std::size_t k = 0; k < count_; k += 4) {
     kernels::store_four(list(k).needles, found.needle + k);

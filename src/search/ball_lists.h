@@ -46,11 +46,11 @@ class BallLists {
   kernels::Scan look(Needle i, double ahead);
   kernels::Found found() { return found_.from(0); }
   auto offsets() const {
-    return
-        [four = lists_.fours(Needle(seeker_.needle)), &sides = sides_](std::size_t k, std::size_t) {
-          return FourOffsets{four(k).cells_along(0) * sides[0], four(k).cells_along(1) * sides[1],
-                             four(k).cells_along(2) * sides[2]};
-        };
+    return [four = lists_.by_fours(Needle(seeker_.needle)), &sides = sides_](std::size_t k,
+                                                                             std::size_t) {
+      return FourOffsets{four(k).cells_along(0) * sides[0], four(k).cells_along(1) * sides[1],
+                         four(k).cells_along(2) * sides[2]};
+    };
   }
   Cell cell_seen(std::uint32_t view) const {
     const Needle i(seeker_.needle);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -26,20 +27,21 @@ class NeighbourLists {
   };
 
   /// Four neighbours, in columns.
-  struct Four {
+  struct FourNeighbours {
     kernels::FourInts needles, cells;
 
     /// By how many cells along this axis each is seen from the body's own cell.
     kernels::Four cells_along(int axis) const {
-      return __builtin_convertvector((cells << (24 - 8 * axis)) >> 24, kernels::Four);
+      const int byte = std::endian::native == std::endian::little ? axis : 3 - axis;
+      return __builtin_convertvector((cells << (24 - 8 * byte)) >> 24, kernels::Four);
     }
   };
   /// The neighbours of a body by fours: those from number k on, of which any after the last one do
   /// not count.
-  struct Fours {
+  struct ByFours {
     const Neighbour* row;
 
-    Four operator()(std::size_t k) const {
+    FourNeighbours operator()(std::size_t k) const {
       static_assert(sizeof(Neighbour) == 8 && offsetof(Neighbour, cells) == 4);
       kernels::FourInts low, high;
       std::memcpy(&low, row + k, sizeof low);
@@ -60,7 +62,7 @@ class NeighbourLists {
     needlework::prefetch(row(i) + 8);
   }
   std::span<const Neighbour> of(Needle i) const { return {row(i), counts_[i]}; }
-  Fours fours(Needle i) const { return {row(i)}; }
+  ByFours by_fours(Needle i) const { return {row(i)}; }
   /// Body i has got a bounding volume that overlaps those of these.
   void replace(Needle i, std::span<const Neighbour> neighbours);
   /// Empties all lists.
