@@ -46,9 +46,9 @@ SHARES = {
         r"candidates|Candidate|PairTable|PairFilter|CellScan|BallLists::look",
     "placing needles in cells": r"NearSearch::place|BoundingVolumes::|BallLists::|NeedleCells::",
     "collisions and their records":
-        r"collide|record|contact_geometry|set_rotation|Hash|director_after|normalised",
+        r"::meet$|::part$|collide|record|contact_geometry|set_rotation|Hash|director_after|normalised",
     "windows, counting needles, sorting the storage":
-        r"Run::|Sizing|density_around|sort|permute|order_in_space|ContactIntegrals",
+        r"Run::|Sizing|exact_sums|density_around|sort|permute|order_in_space|ContactIntegrals",
     "first contacts in double and double-double":
         r"kernels::|sine_cosine|make_pair|settle_touch|::predict|::consider",
     "calendar": r"Tournament|WinnerTree|EventTable",

@@ -171,10 +171,10 @@ struct SimdTimeSpan {
   Mask never;
 };
 
-NEEDLEWORK_INLINE SimdTimeSpan overlap_of_spheres(const SimdPairs& pair, const SimdBounds& bounds) {
+NEEDLEWORK_INLINE SimdTimeSpan overlap_of_spheres(const V3& r, const V3& v, Floats reach_squared) {
   const Floats zero(0.0f), margin(static_cast<float>(time_margin));
-  const Floats a = dot(pair.v, pair.v), b = dot(pair.r, pair.v);
-  const Floats c = dot(pair.r, pair.r) - bounds.reach_squared;
+  const Floats a = dot(v, v), b = dot(r, v);
+  const Floats c = dot(r, r) - reach_squared;
   const Floats discriminant = subtract_product(b * b, a, c);
   const Floats root = square_root(maximum(discriminant, zero));
   const Mask outside = c > zero;
@@ -319,7 +319,7 @@ NEEDLEWORK_INLINE std::size_t bracket_vector(const Seeker& seeker, const PairCol
   const SimdPairs all = load_pairs(seeker, pairs, k);
   const SimdBounds bounds =
       bounds_of<wide>(seeker, all, column(C::until), wide ? column(C::distance) : zero);
-  const SimdTimeSpan overlap = overlap_of_spheres(all, bounds);
+  const SimdTimeSpan overlap = overlap_of_spheres(all.r, all.v, bounds.reach_squared);
   Intervals now{maximum(maximum(overlap.begin, column(C::from)) - margin, zero),
                 minimum(overlap.end, column(C::until)),
                 numbers_of_lanes(),
@@ -390,19 +390,23 @@ std::size_t bracket_rods(const Seeker& seeker, const PairColumns& pairs, std::si
 }
 
 /// They meet when their centres come that near, which is the time at which their bounding spheres
-/// do.
+/// do. The margins are those of bounds_of() for bodies without length and rotation.
 std::size_t bracket_spheres(const Seeker& seeker, const PairColumns& pairs, std::size_t n) {
   using C = PairColumns;
   const Floats infinity(std::numeric_limits<float>::infinity()), zero(0.0f);
-  const Floats margin(static_cast<float>(time_margin));
+  const Floats margin(static_cast<float>(time_margin)), least(0x1p-10f), seekers(seeker.margin);
+  const Floats speed = norm_1(broadcast(seeker.motion.v));
   std::size_t evaluations = 0;
   for (std::size_t k = 0; k < n; k += floats_at_once) {
     ++evaluations;
     const auto column = [&](int c) NEEDLEWORK_TARGET { return load_floats(pairs.column[c] + k); };
-    const SimdPairs pair = load_pairs(seeker, pairs, k);
+    const V3 r{column(C::r_x), column(C::r_y), column(C::r_z)};
+    const V3 v{column(C::v_x), column(C::v_y), column(C::v_z)};
     const Floats until = column(C::until);
+    const Floats reach =
+        (least + multiply_add(speed + norm_1(v), Floats(0x1p-18f), seekers)) + column(C::distance);
     const SimdTimeSpan overlap =
-        overlap_of_spheres(pair, bounds_of<true>(seeker, pair, until, column(C::distance)));
+        overlap_of_spheres(r, v, multiply_add(reach, reach, dot(r, r) * Floats(0x1p-18f)));
     const Floats from = maximum(maximum(overlap.begin, column(C::from)) - margin, zero);
     const Mask apart = overlap.never | (from > minimum(overlap.end, until));
     store_floats(select(apart, infinity, from), pairs.column[C::from] + k);

@@ -17,6 +17,7 @@ inline Four load_four(const void* p) {
   return out;
 }
 inline void store_four(const Four& a, void* p) { std::memcpy(p, &a, sizeof a); }
+inline void store_four(const FourInts& a, void* p) { std::memcpy(p, &a, sizeof a); }
 
 inline Four larger(const Four& a, const Four& b) { return a > b ? a : b; }
 

@@ -159,7 +159,8 @@ struct NearKernels {
   std::size_t (*bracket)(const Seeker& seeker, const PairColumns& pairs, std::size_t n);
   /// The same for rods, which meet where their axes are not farther apart than their `distance`.
   std::size_t (*bracket_rods)(const Seeker& seeker, const PairColumns& pairs, std::size_t n);
-  /// The same for spheres: all half lengths are 0, and one vector of pairs takes one evaluation.
+  /// The same for spheres, of which it reads the places, velocities, times and distances only. One
+  /// vector of pairs takes one evaluation.
   std::size_t (*bracket_spheres)(const Seeker& seeker, const PairColumns& pairs, std::size_t n);
 };
 

@@ -263,8 +263,7 @@ void EventProcessor<S, M>::meet(const Event& event) {
   else
     tally_.hash.add(happening.event, kind);
   const Time placed_a = place(a), placed_b = place(b);
-  const double apart =
-      model_.contact().time_apart(model_.pair(a, gas_.records[a], b, gas_.records[b], shift));
+  const double apart = model_.time_apart(a, b, shift);
   schedule(a, placed_a, {b, shift, apart});
   schedule(b, placed_b, {a, -shift, apart});
   if (!run_.listeners.any()) return;

@@ -432,13 +432,15 @@ std::optional<Collisionless> Run::collisionless() const {
   if (!sources.empty() || kicks) return std::nullopt;
   // Images fly past each other.
   if (gas.shear && gas.size() > 1) return std::nullopt;
-  const auto reason = needlework::collisionless(gas.size(), [&](std::size_t i) {
+  const auto state_of = [&](std::size_t i) {
     const kernels::Flight& flight = gas.records[i].flight;
     return kernels::BodyState{flight.r, flight.v, flight.u, flight.w};
-  });
-  // Of width, only those touch nothing that have no motion relative to each other.
-  if (effects.width && gas.size() > 1 && reason != Collisionless::alike) return std::nullopt;
-  return reason;
+  };
+  // Of width, only those touch nothing that have no motion relative to each other. Spheres that
+  // have begun on a lattice have equal directors, so that to look for other reasons would take
+  // long.
+  if (effects.width && gas.size() > 1 && !move_alike(gas.size(), state_of)) return std::nullopt;
+  return needlework::collisionless(gas.size(), state_of);
 }
 
 Stop Run::end_of_events() const {

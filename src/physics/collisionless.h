@@ -34,6 +34,17 @@ inline bool stays_normal_to(int axis, const kernels::BodyState& state) {
   return along(state.u) == 0 && along(state.v) == 0 && across == Vec3d{};
 }
 
+/// Whether all move along together, without rotation; of at least one.
+template <class StateOf>
+bool move_alike(std::size_t count, StateOf&& state_of) {
+  const Vec3d v = state_of(0).v;
+  for (std::size_t i = 0; i < count; ++i) {
+    const kernels::BodyState state = state_of(i);
+    if (!(state.w == Vec3d{} && state.v == v)) return false;
+  }
+  return true;
+}
+
 /// Nothing if needles may collide, for all that state_of(i) of each of `count` needles shows, whose
 /// centres do not count. That is known after a few needles if their motions have nothing in common.
 template <class StateOf>
@@ -47,8 +58,7 @@ std::optional<Collisionless> collisionless(std::size_t count, StateOf&& state_of
     return true;
   };
   const kernels::BodyState first = state_of(0);
-  if (all([&](const kernels::BodyState& a) { return a.w == Vec3d{} && a.v == first.v; }))
-    return alike;
+  if (move_alike(count, state_of)) return alike;
   if (all([&](const kernels::BodyState& a) {
         return a.w == Vec3d{} && (a.u == first.u || a.u == -first.u);
       })) {

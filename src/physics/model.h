@@ -24,6 +24,8 @@ namespace needlework {
 ///   `body` is what a needle is, and `half_length` and `reach` parts of it that searches ask for.
 ///   `pair` is the relative motion of two needles, a pure function of the two records and the
 ///     shift, and `contact` is when and how such a pair touches (contact.h).
+///   `time_apart` is that of the contact (contact.h) for two needles that have just collided, or
+///     more where they never meet again.
 ///   `collide` is the outcome of a contact, now, of needles that approach from `side`, the second
 ///     with `shift` boxes added; `elastic` selects the rule for collisions within the contact time.
 ///     It never adds energy.
@@ -50,6 +52,7 @@ concept Model = requires(const M& model, Needle i, const Record& record, const S
   { model.reach(i) } -> std::same_as<double>;
   { model.contact() } -> std::same_as<const typename M::Law&>;
   { model.pair(i, record, i, record, shift) } -> std::same_as<typename M::Law::Pair>;
+  { model.time_apart(i, i, shift) } -> std::same_as<double>;
   { model.collide(i, i, shift, now, geometry, int{}, bool{}) } -> std::same_as<PairOutcome>;
   { model.present(i, now) } -> std::same_as<kernels::BodyState>;
   { model.renew(i, now, state) } -> std::same_as<Shift>;

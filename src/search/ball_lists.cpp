@@ -105,22 +105,19 @@ void BallLists::list_neighbours(Needle i, CellScan& scan) {
 kernels::Scan BallLists::look(Needle i, double ahead) {
   const ClassCells& own = volumes_.class_of(i);
   set_seeker(volumes_, own, i, ahead, seeker_);
-  const std::span<const NeighbourLists::Neighbour> list = lists_.of(i);
-  count_ = list.size();
-  if (count_ > views_.size()) views_.resize(count_);
+  const std::array<double, 3> sides = own.grid.sides();
+  for (int axis = 0; axis < 3; ++axis) {
+    sides_[axis] = static_cast<float>(sides[axis] * volumes_.frame.per_length);
+  }
+  count_ = lists_.of(i).size();
   found_.make_room(count_);
   const kernels::Found found = found_.from(0);
-  const std::array<double, 3> grid_sides = own.grid.sides();
-  float sides[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    sides[axis] = static_cast<float>(grid_sides[axis] * volumes_.frame.per_length);
-  }
-  for (std::size_t k = 0; k < count_; ++k) {
-    found.needle[k] = list[k].needle.index;
-    found.cell[k] = static_cast<std::uint32_t>(k);
-    for (int axis = 0; axis < 3; ++axis) {
-      views_[k].offset[axis] = static_cast<float>(list[k].cells[axis]) * sides[axis];
-    }
+  const NeighbourLists::ByFours list = lists_.by_fours(i);
+  kernels::FourInts numbers{0, 1, 2, 3};
+  for (std::size_t k = 0; k < count_; k += 4) {
+    kernels::store_four(list(k).needles, found.needle + k);
+    kernels::store_four(numbers, found.cell + k);
+    numbers += 4;
   }
   return {count_, count_};
 }

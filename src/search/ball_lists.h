@@ -15,11 +15,12 @@
 #include "src/search/cell_scan.h"
 #include "src/search/found_columns.h"
 #include "src/search/neighbour_lists.h"
+#include "src/search/pair_table.h"
 
 namespace needlework {
 
-/// Lists are those of one thread. Finds spheres as CellScan does, but in lists: each neighbour has
-/// a view of its own.
+/// Lists are those of one thread. Finds spheres as CellScan does, but in lists: the view of a
+/// neighbour is its number there.
 class BallLists {
  public:
   /// Whether the class of all bodies, if it is one, is to be in balls, and lists can hold by how
@@ -44,7 +45,13 @@ class BallLists {
 
   kernels::Scan look(Needle i, double ahead);
   kernels::Found found() { return found_.from(0); }
-  const kernels::CellView* views() const { return views_.data(); }
+  auto offsets() const {
+    return [four = lists_.by_fours(Needle(seeker_.needle)), &sides = sides_](std::size_t k,
+                                                                             std::size_t) {
+      return FourOffsets{four(k).cells_along(0) * sides[0], four(k).cells_along(1) * sides[1],
+                         four(k).cells_along(2) * sides[2]};
+    };
+  }
   Cell cell_seen(std::uint32_t view) const {
     const Needle i(seeker_.needle);
     Cell out = volumes_.places[i].cell;
@@ -73,7 +80,7 @@ class BallLists {
   std::vector<NeighbourLists::Neighbour> neighbours_;  ///< of one sphere
   kernels::Seeker seeker_{};
   std::size_t count_ = 0;
-  std::vector<kernels::CellView> views_;
+  float sides_[3] = {};  ///< of cells [unit of length]
   FoundColumns found_;
 };
 

@@ -78,7 +78,8 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
       distances(all, frame.per_length),
       sizes(size_classes(all, setup, kind)),
       places(all.size()),
-      motions(all.size()) {
+      motions(all.size()),
+      are_spheres(all.composition.are_spheres()) {
   std::vector<CellGrid> wished;
   for (const SizeClass& each : sizes) wished.push_back(grid_for(gas, setup, each));
   const bool one = wished.size() == 1;
@@ -248,17 +249,18 @@ void BoundingVolumes::rebase(Time now, int threads) {
 void BoundingVolumes::set_motion(Needle i, double elapsed, const MotionFrame::Path& path,
                                  Time now) {
   const kernels::Flight& flight = gas.records[i].flight;
-  const SineCosine<double> sc = sine_cosine(flight.omega * elapsed);
   const double unit_of_time = 1 / frame.per_time;
   Motion& out = motions[i];
   const Vec3d corner = class_of(i).grid.corner(places[i].cell);
   store(out.r, (path.centre - corner) * frame.per_length);
   store(out.v, path.velocity * (frame.per_length * unit_of_time));
+  out.time = static_cast<float>(frame.since_base(now));
+  out.until = frame.rounded_up(places[i].next_event);
+  if (are_spheres) return;
+  const SineCosine<double> sc = sine_cosine(flight.omega * elapsed);
   store(out.u, flight.u * sc.cosine + flight.p * sc.sine);
   store(out.p, flight.p * sc.cosine - flight.u * sc.sine);
   out.omega = static_cast<float>(flight.omega * unit_of_time);
-  out.time = static_cast<float>(frame.since_base(now));
-  out.until = frame.rounded_up(places[i].next_event);
 }
 
 bool BoundingVolumes::enter(ClassCells& own, Needle i, const Cell& cell) {

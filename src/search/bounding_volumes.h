@@ -82,7 +82,7 @@ struct BoundingVolumes {
   void write_entry(ClassCells& own, Needle i, const Vec3d& centre, const Vec3d& direction,
                    Time now);
   /// All but the half length, which does not depend on the units of time. `elapsed` is the time
-  /// since the needle's record.
+  /// since the needle's record. Motions of spheres have no directors.
   void set_motion(Needle i, double elapsed, const MotionFrame::Path& path, Time now);
 
   const Gas& gas;
@@ -96,6 +96,7 @@ struct BoundingVolumes {
   LargeArray<Place> places;
   LargeArray<kernels::Motion> motions;
   LargeArray<Shift> wraps;  ///< if cells slide in rows: boxes subtracted from a record's centre
+  bool are_spheres;         ///< all bodies, so that no filter reads how they turn
 
  private:
   void carry_rows(Time now);

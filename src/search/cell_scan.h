@@ -8,12 +8,16 @@
 // rounds it.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <vector>
 
+#include "kernels/four.h"
 #include "src/search/bounding_volumes.h"
 #include "src/search/cell_views.h"
 #include "src/search/found_columns.h"
 #include "src/search/look.h"
+#include "src/search/pair_table.h"
 
 namespace needlework {
 
@@ -30,7 +34,18 @@ class CellScan {
 
   /// With numbers of views.
   kernels::Found found() { return found_.from(0); }
-  const kernels::CellView* views() const { return views_.data(); }
+  /// Where the cells are in which these are seen.
+  auto offsets() const {
+    return [views = views_.data(), cells = found_.cells()](std::size_t k, std::size_t end) {
+      static_assert(offsetof(kernels::CellView, offset) == 4);
+      kernels::Four row[4];
+      for (std::size_t i = 0; i < 4; ++i) {
+        row[i] = kernels::load_four(&views[cells[std::min(k + i, end - 1)]]);
+      }
+      kernels::transpose(row);
+      return FourOffsets{row[1], row[2], row[3]};
+    };
+  }
   /// The cell in which a needle is seen, not wrapped into the box.
   const Cell& cell_seen(std::uint32_t view) const { return views_.cell(view); }
   /// Needle i; its place is that of its own class, and its margin enough for all.

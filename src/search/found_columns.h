@@ -19,6 +19,8 @@ class FoundColumns {
     return {columns_.data() + begin, columns_.data() + columns_.size() / 2 + begin};
   }
 
+  const std::uint32_t* cells() const { return columns_.data() + columns_.size() / 2; }
+
  private:
   std::vector<std::uint32_t> columns_;  ///< needles, then their views, each in one half
 };

@@ -90,8 +90,10 @@ inline std::span<const Candidate> NearSearch::Parts::find(Source& source,
   const JustHit& just_hit = query.just_hit;
   const auto [entries, count] = source.look(query.needle, query.ahead);
   const kernels::Found found = source.found();
-  for (std::size_t k = 0; k < count; ++k) {
-    needlework::prefetch(&volumes.motions[found.needle[k]]);
+  if constexpr (!std::is_same_v<Source, BallLists>) {
+    for (std::size_t k = 0; k < count; ++k) {
+      needlework::prefetch(&volumes.motions[found.needle[k]]);
+    }
   }
   // The boxes to be added to the centre of a needle found in this view.
   const auto shift_of = [&](Needle j, std::uint32_t view) {
@@ -105,8 +107,13 @@ inline std::span<const Candidate> NearSearch::Parts::find(Source& source,
   candidates.clear();
   if (filters) {
     const kernels::PairColumns& columns = filter.columns_for(count);
+    const kernels::Motion* const motions = volumes.motions.data();
     source.for_each_seeker([&](const kernels::Seeker& seeker, std::size_t begin, std::size_t end) {
-      PairTable::fill(columns, seeker, volumes.motions.data(), source.views(), found, begin, end);
+      const auto offsets = source.offsets();
+      if (volumes.are_spheres)
+        PairTable::fill<false>(columns, seeker, motions, offsets, found, begin, end);
+      else if constexpr (!std::is_same_v<Source, BallLists>)
+        PairTable::fill<true>(columns, seeker, motions, offsets, found, begin, end);
     });
     PairFilter::Parting parting{0, just_hit.apart};
     for (; parting.pair < count; ++parting.pair) {

@@ -53,7 +53,7 @@ void NeighbourLists::remove(Needle i, Needle neighbour) {
 }
 
 void NeighbourLists::make_room(std::size_t needed) {
-  const std::size_t room = std::max(needed, room_ + room_ / 2);
+  const std::size_t room = (std::max(needed, room_ + room_ / 2) + 3) / 4 * 4;
   LargeArray<Neighbour> rows(counts_.size() * room);
   for (std::size_t i = 0; i < counts_.size(); ++i) {
     std::copy_n(row(Needle(i)), counts_[i], rows.data() + i * room);
