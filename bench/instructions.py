@@ -95,6 +95,7 @@ EFFECTS = [
            ["driving.andersen={rate=1, temperature=1}"]),
     Effect("two walls along z", [], [], scene=WALLS),
     Effect("vibrated wall and gravity", [], [], scene=SHAKEN),
+    Effect("uniform shear", ["shear.rate=1e-12"], [f"shear.rate={0.2 / MEAN_FREE_TIME!r}"]),
     Effect("rough, with t_c rule",
            ["collisions.epsilon=0.9999999999999999", "collisions.beta=-0.9999999999999999",
             "collisions.tc=1e-300"],

@@ -109,6 +109,11 @@ Scene driven_rods() {
   return scene;
 }
 
+Scene sheared(Scene scene, double rate, double offset) {
+  scene.shear = Scene::Shear{.rate = rate, .offset = offset};
+  return scene;
+}
+
 }  // namespace
 
 std::vector<EffectScene> effect_scenes() {
@@ -149,6 +154,19 @@ std::vector<EffectScene> effect_scenes() {
   add("rods_and_spheres", rods_and_spheres(60, 11), until_time(1.5));
   add("falling_rods", falling_rods(), until_time(3));
   add("driven_rods", driven_rods(), until_time(3));
+
+  add("sheared", sheared(cooling(160, 5), 0.8, 1.3), until_time(2));
+  add("sheared_back", sheared(cooling(160, 3.2), -2.5, 0), until_time(0.5));
+  add("sheared_mixture", sheared(mixture(), -0.7, 4.1), until_collisions(10));
+  add("sheared_rods", sheared(rods_of(120, 5, 0.15), 1, 2), until_time(1.5));
+  add("sheared_spheres", sheared(rods_of(150, 0, 0.3), 0.5, 2), until_time(1.5));
+  Scene& driven = add("sheared_and_driven", sheared(two_lengths(5), 1, 0.4), until_time(2));
+  driven.collisions.beta = 0.2;
+  driven.forces.gravity = {0, 0, -2};
+  driven.driving.kicks = {.every = 0.07, .translational = 0.5, .rotational = 1};
+  driven.walls = {{.axis = "z", .side = "low", .epsilon = 0.9},
+                  {.axis = "z", .side = "high", .temperature = 1.5}};
+  driven.walls[0].motion = {.amplitude = 0.1, .frequency = 2, .phase = 1};
 
   add("sliding", sliding(100, 5, 0), until_time(1));
   add("sliding_after_bounces", sliding(100, 5, 0.5), until_collisions(12));

@@ -33,6 +33,12 @@ void expect_same_sums(const Simulation& a, const Simulation& b) {
   EXPECT_EQ(test::numbers_of(a.energy_budget()), test::numbers_of(b.energy_budget()));
   EXPECT_EQ(a.t_tr_integral(), b.t_tr_integral());
   EXPECT_EQ(a.virial(), b.virial());
+  const auto stress = a.stress_sums(), other_stress = b.stress_sums();
+  ASSERT_EQ(stress.has_value(), other_stress.has_value());
+  if (stress) {
+    EXPECT_EQ(stress->kinetic, other_stress->kinetic);
+    EXPECT_EQ(stress->collisional, other_stress->collisional);
+  }
   const auto walls = a.wall_totals(), other_walls = b.wall_totals();
   ASSERT_EQ(walls.size(), other_walls.size());
   for (std::size_t n = 0; n < walls.size(); ++n) {
@@ -151,6 +157,7 @@ std::vector<Scene> other_scenes(const Scene& scene) {
   add(!scene.species.empty() && scene.species.back().diameter > 0,
       [](Scene& s) { s.species.back().diameter *= 1.01; });
   add(!scene.pairs.empty(), [](Scene& s) { s.pairs[0].epsilon = 0.7; });
+  add(scene.shear.has_value(), [](Scene& s) { s.shear->rate *= 1.01; });
   add(scene.collisions.sliding, [](Scene& s) { s.collisions.sliding_below = 2e-3; });
   add(scene.collisions.elastic_strikes, [](Scene& s) { s.collisions.elastic_strikes = false; });
   add(!scene.walls.empty(), [](Scene& s) { s.walls[0].epsilon *= 0.99; });

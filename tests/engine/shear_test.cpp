@@ -94,7 +94,7 @@ void expect_events_of_quad(const Scene& scene, const std::string& name) {
   const State initial = state_of(name, scene.needles.box);
   const auto events = table(name + "_events");
   const std::vector<double>& times = events.at("time");
-  for (const char* search : {"all-pairs", "linked-cells"}) {
+  for (const char* search : {"all-pairs", "linked-lists", "linked-cells", "capsules"}) {
     Followed run(by(scene, search), initial);
     run.advance_to_collision(static_cast<double>(times.size()));
     std::size_t compared = 0;
@@ -166,8 +166,10 @@ TEST(Shear, HasOneTrajectoryByEverySearch) {
     SCOPED_TRACE(testing::Message() << "scene " << n << ", rate " << scene.shear->rate);
     const State initial = draw_initial_state(scene);
     const Recorded truth = test::record(by(scene, "all-pairs"), initial, 300);
-    const Recorded fast = test::record(by(scene, "linked-cells"), initial, 300);
-    ASSERT_NO_FATAL_FAILURE(expect_same(truth, fast));
+    for (const char* search : {"linked-lists", "linked-cells", "capsules"}) {
+      const Recorded fast = test::record(by(scene, search), initial, 300);
+      ASSERT_NO_FATAL_FAILURE(expect_same(truth, fast)) << search;
+    }
   }
 }
 
@@ -181,7 +183,7 @@ TEST(Shear, OfRateZeroIsNone) {
     still.shear = Scene::Shear{};
     const State initial = draw_initial_state(plain);
     EXPECT_EQ(draw_initial_state(still).velocity, initial.velocity);
-    for (const char* search : {"all-pairs", "linked-cells"})
+    for (const char* search : {"all-pairs", "linked-lists", "linked-cells", "capsules"})
       expect_same(test::record(by(plain, search), initial, 2000),
                   test::record(by(still, search), initial, 2000));
   }
