@@ -137,6 +137,32 @@ bool approach(const State& state, const Collision& last) {
   return dot(apart - image.place + first - second, velocity + turns_first - turns_second) < 0;
 }
 
+void add_flow(const Scene& scene, State& state) {
+  const Shear shear(scene.shear->rate, scene.needles.box, scene.shear->offset);
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    state.velocity[i][0] += shear.rate() * state.position[i][1];
+  }
+}
+
+// A lattice has images that have not slid: these slide, as fast as the rods move, to where the
+// scene has them.
+State slid(const Scene& scene, State state) {
+  Scene sliding = elastic(scene, state);
+  sliding.shear = Scene::Shear{.rate = 1 / scene.needles.box[1]};
+  draw_velocities(sliding, state);
+  add_flow(sliding, state);
+  Simulation simulation(sliding, state);
+  Scene::Until until;
+  until.time = scene.shear->offset;
+  until.wall_s = 0.1;
+  while (simulation.advance(until) == Stop::wall_time) StopRequest::check();
+  State out = drawn_from(simulation, scene);
+  out.slide = scene.shear->offset;
+  out.shear_rate = 0;
+  out.peculiar_velocity.clear();
+  return out;
+}
+
 DrawnState melted(const Scene& scene, State state, RodOrder order, double collisions_per_rod) {
   const Scene still = elastic(scene, state);
   draw_velocities(still, state);
@@ -195,8 +221,10 @@ DrawnState draw_in_flow(const Scene& scene) {
   if (packing == "auto" && !is_hopeless(scene)) {
     if (auto state = inserted(scene, tries_by_choice)) return std::move(*state);
   }
-  if (auto lattice = place_rods_on_lattice(scene, order_of(scene)))
+  if (auto lattice = place_rods_on_lattice(scene, order_of(scene))) {
+    if (scene.shear && scene.shear->offset > 0) *lattice = slid(scene, std::move(*lattice));
     return melted(scene, std::move(*lattice), order_of(scene), collisions_to_forget(scene));
+  }
   if (packing == "auto" && !is_hopeless(scene)) {
     if (auto state = inserted(scene, tries_without_choice)) return std::move(*state);
   }
@@ -208,11 +236,7 @@ DrawnState draw_in_flow(const Scene& scene) {
 DrawnState draw_state(const Scene& scene) {
   require_valid(scene, drawable);
   DrawnState out = draw_in_flow(scene);
-  if (!scene.shear) return out;
-  const Shear shear(scene.shear->rate, scene.needles.box, scene.shear->offset);
-  for (std::size_t i = 0; i < out.state.size(); ++i) {
-    out.state.velocity[i][0] += shear.rate() * out.state.position[i][1];
-  }
+  if (scene.shear) add_flow(scene, out.state);
   return out;
 }
 

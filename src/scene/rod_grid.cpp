@@ -106,13 +106,25 @@ void RodGrid::for_each_near(const Level& level, const Vec3d& r, double reach,
       count[axis] = all;
     }
   }
+  // The row of boxes above, and that below, may have slid along x.
+  const double slid = box_.row_above().offset.hi;
+  if (slid != 0 && count[1] == level.counts[1]) {
+    first[0] = 0;
+    count[0] = level.counts[0];
+  }
+  const auto first_in = [&](std::int64_t y) {
+    const double rows = y < 0 ? -1 : y >= level.counts[1] ? 1 : 0;
+    if (slid == 0 || rows == 0) return first[0];
+    return first[0] - cell[0] + cell_of(level, {r.x - rows * slid, r.y, r.z})[0];
+  };
   Cell at;
   for (std::int64_t z = 0; z < count[2]; ++z) {
     at[2] = (first[2] + z + level.counts[2]) % level.counts[2];
     for (std::int64_t y = 0; y < count[1]; ++y) {
       at[1] = (first[1] + y + level.counts[1]) % level.counts[1];
+      const std::int64_t first_x = first_in(first[1] + y);
       for (std::int64_t x = 0; x < count[0]; ++x) {
-        at[0] = (first[0] + x + level.counts[0]) % level.counts[0];
+        at[0] = (first_x + x + level.counts[0]) % level.counts[0];
         for (std::uint32_t i = level.first[level.index_of(at)]; i != none; i = rods_[i].next) {
           visit(i);
         }

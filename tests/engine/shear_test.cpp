@@ -375,11 +375,14 @@ TEST(Shear, DrawsVelocitiesBesideTheFlow) {
 
 // Where rods are placed, images have slid as well.
 TEST(Shear, PlacesRodsBesideImagesThatHaveSlid) {
-  for (const double offset : {0.0, 1.3}) {
-    Scene scene = of_spheres(sheared(40, 4, 1, offset));
-    Simulation simulation(scene);
-    simulation.advance(until_collisions(20));
-    EXPECT_GT(simulation.totals().t_tr, 0);
+  for (const char* packing : {"insertion", "lattice"}) {
+    for (const double offset : {0.0, 1.3, 5.1}) {
+      Scene scene = of_spheres(sheared(150, 6.4, 1, offset));
+      scene.initial.packing = packing;
+      Simulation simulation(scene);
+      simulation.advance(until_collisions(20));
+      EXPECT_GT(simulation.totals().t_tr, 0);
+    }
   }
 }
 
