@@ -22,13 +22,14 @@ using kernels::Motion;
 constexpr double cells_per_needle = 2;
 
 // The grid that a class wishes for. Cells that slide in rows are by `tall` longer across them than
-// others, and shorter along the other axes, as each row takes a look of its own.
+// others, and shorter along x, as each row takes a look of its own.
 CellGrid grid_for(const Gas& gas, const SearchSetup& setup, const SizeClass& one) {
   if (setup.cell_side) return CellGrid(gas.box.edges(), one.cell_side, one.count);
   return with_volume(one.kind, [&](auto volume) {
     Vector edges = gas.box.edges();
-    const double tall = gas.shear ? volume.tall : 1, wide = 1 / std::sqrt(tall);
-    for (std::size_t axis = 0; axis < 3; ++axis) edges[axis] /= axis == 1 ? tall : wide;
+    const double tall = gas.shear ? volume.tall : 1;
+    edges[0] *= tall;
+    edges[1] /= tall;
     const CellGrid out(edges, one.cell_side, one.count, setup.count_multiples, cells_per_needle,
                        volume.fit);
     return gas.shear ? CellGrid::of_counts(gas.box.edges(), out.counts()) : out;
