@@ -23,6 +23,7 @@ struct Case {
   std::uint64_t count;
   std::array<double, 3> box;
   double epsilon, beta, tc_relative, k, collisions;
+  double shear_rate = 0;
 };
 
 Scene scene_of(const Case& c) {
@@ -32,6 +33,7 @@ Scene scene_of(const Case& c) {
   scene.collisions.epsilon = c.epsilon;
   scene.collisions.beta = c.beta;
   if (c.tc_relative > 0) scene.collisions.tc_relative = c.tc_relative;
+  if (c.shear_rate != 0) scene.shear = Scene::Shear{.rate = c.shear_rate, .offset = 1};
   return scene;
 }
 
@@ -67,6 +69,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"least_box", 300, {2.01, 2.01, 2.01}, 1, -1, 0, 6, 2000},
                     Case{"very_dilute", 300, {30, 30, 30}, 1, -1, 0, 6, 1000},
                     Case{"rare_long", 4000, {60, 60, 60}, 0.9, -1, 1e-3, 6, 5000},
+                    Case{"sheared", 1000, {10, 10, 10}, 0.9, -1, 1e-3, 6, 4000, 0.3},
+                    Case{"sheared_slab", 1000, {9, 30, 2.01}, 0.9, 0.4, 0, 6, 4000, -2},
+                    Case{"sheared_dense", 2000, {5, 5, 5}, 0.9, -1, 1e-3, 6, 4000, 4},
                     Case{"two_needles", 2, {2.01, 2.01, 2.01}, 1, -1, 0, 6, 600}),
     [](const auto& info) { return std::string(info.param.name); });
 

@@ -1,6 +1,7 @@
 // Scenes drawn at random, on one thread and on several: of any density and shape of box, filled or
-// not, elastic, rough, cooling and sliding, with every kind of end. NEEDLEWORK_RANDOM_SCENES=N in
-// the environment sets their number. Random scenes have found errors that no chosen one had.
+// not, elastic, rough, cooling, sheared and sliding, with every kind of end.
+// NEEDLEWORK_RANDOM_SCENES=N in the environment sets their number. Random scenes have found errors
+// that no chosen one had.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -74,6 +75,10 @@ Drawn draw(std::uint64_t seed) {
   if (draw.one_in(2)) until.time = draw.power_of_ten(-2, 1);
   if (scene.collisions.epsilon < 1 && draw.one_in(2)) until.energy_ratio = draw.uniform(0.3, 0.99);
   const double gathered = draw.one_in(4) ? draw.power_of_ten(-1, 0) : 1;
+  if (gathered == 1 && draw.one_in(3)) {
+    const double rate = draw.power_of_ten(-2, 1) * draw.of({-1.0, 1.0});
+    scene.shear = Scene::Shear{.rate = rate, .offset = draw.uniform(0, scene.needles.box[0])};
+  }
   return {scene, until, gathered};
 }
 
