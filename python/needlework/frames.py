@@ -14,6 +14,7 @@ import numpy as np
 
 from .errors import InputError, IoError
 from .state import ARRAYS, NUMBERS_OF_BODIES, Bodies, State
+from .tilt import counted, reduced_tilt
 from .values import NotPickled
 
 if TYPE_CHECKING:
@@ -66,7 +67,8 @@ class Frame(NotPickled):
         not hold it."""
         if "image" not in self._needles:
             return np.zeros((self._needles.count, 3), dtype=np.int32)
-        return self._vectors("image", np.int32)
+        image, edges = self._vectors("image", np.int32), self._slide[1]
+        return image if edges == 0 else counted(image, edges)
 
     @cached_property
     def box(self) -> np.ndarray:
@@ -96,7 +98,14 @@ class Frame(NotPickled):
     def state(self) -> State:
         """All needles: the arrays position, velocity, orientation, angular_velocity, image, id and
         species by name, and bodies, from which ``Simulation(scene, **state)`` starts."""
-        return State.of((getattr(self, name) for name in ARRAYS), self._needles.bodies)
+        flow = (self._slide[0], self._needles.shear_rate)
+        return State.of((getattr(self, name) for name in ARRAYS), self._needles.bodies,
+                        flow if flow != (0, 0) else None)
+
+    @property
+    def _slide(self) -> tuple[float, int]:
+        """By how much the box is tilted along x, reduced as in a state."""
+        return reduced_tilt(self._needles.tilt(self._index), self.box[0])
 
     def __repr__(self) -> str:
         collisions = "" if self.collisions is None else f", {self.collisions} collisions"
@@ -305,6 +314,7 @@ class Needles:
         self.count = position.shape[-2]
         self._common: np.ndarray | None = None  # steps of the frames, if elements differ in them
         self.periodic = _periodic(group)
+        self.shear_rate = float(np.ravel(_get(group, "box").attrs.get("shear_rate", 0))[0])
         self.bodies = _bodies(group)
         self.frames = self._count_frames(position)
         self._require_shapes()
@@ -319,16 +329,27 @@ class Needles:
         return element.read(self._row(element, rank, frame), dtype)
 
     def box(self, frame: int) -> np.ndarray:
-        """Edges of the box in a frame, which may be vectors, the rows of a diagonal matrix."""
+        """Edges of the box in a frame, which may be vectors, the rows of a matrix."""
+        edges, values = self._elements["box/edges"], self._vectors_of_box(frame).diagonal().copy()
+        if not np.all((values > 0) & (values < math.inf)):
+            edges.reject(f"{values.tolist()}: expected edges above 0")
+        return values
+
+    def tilt(self, frame: int) -> float:
+        """By how much the second edge of the box is tilted along x."""
+        return float(self._vectors_of_box(frame)[1, 0])
+
+    def _vectors_of_box(self, frame: int) -> np.ndarray:
         edges = self._elements["box/edges"]
         rank = 1 if len(edges.shape) == 1 or self._edges_by_row(edges) else 2
         values = edges.read(self._row(edges, rank, frame), np.float64)
-        if values.ndim == 2:
-            if np.any(values[~np.eye(3, dtype=bool)] != 0):
-                edges.reject("edges that are not along the axes: expected a rectangular box")
-            values = values.diagonal().copy()
-        if not np.all((values > 0) & (values < math.inf)):
-            edges.reject(f"{values.tolist()}: expected edges above 0")
+        if values.ndim == 1:
+            return np.diag(values)
+        others = ~np.eye(3, dtype=bool)
+        others[1, 0] = False
+        if np.any(values[others] != 0) or not np.isfinite(values[1, 0]):
+            edges.reject("edges that are not along the axes: expected a box that is rectangular or "
+                         "tilted along x by y")
         return values
 
     def _count_frames(self, position: Element) -> int:

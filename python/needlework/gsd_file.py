@@ -11,6 +11,7 @@ from . import _core
 from .errors import InputError, IoError
 from .reading import Recording, read
 from .state import Bodies, State
+from .tilt import counted, reduced_tilt
 from .values import Values
 
 __all__ = ["GsdFrame", "from_gsd", "to_gsd"]
@@ -44,6 +45,8 @@ def to_gsd(source: Union[Recording, str, os.PathLike, Any], path: str, frames: A
     with walls. Along these a box encloses bodies beyond its edges, as above an open side:
     ``log["edges"]`` are the edges of the run, and ``log["centre"]`` is where the origin of the file is
     in the run.
+    A sheared box has the tilt xy, images that belong to it, and ``log["slide"]`` and
+    ``log["shear_rate"]``.
     The step of a frame is the number of collisions before it. Needs python3-gsd.
     """
     import gsd.hoomd
@@ -96,8 +99,8 @@ def from_gsd(path: str, frame: int = -1) -> GsdFrame:
     and moment_inertia; the part along the director is left out. Types are species, of which mass
     and k = m L^2 / (2 I) follow from the particles, length and diameter from what to_gsd() writes or
     from type_shapes, Sphere or Ellipsoid. What follows from single precision is rounded to six
-    digits. Raises InputError for a box with tilts and for particles of a type that differ. Needs
-    python3-gsd.
+    digits. A tilt xy is the slide of the state. Raises InputError for the tilts xz and yz, and for
+    particles of a type that differ. Needs python3-gsd.
     """
     import gsd.hoomd
 
@@ -112,13 +115,18 @@ def from_gsd(path: str, frame: int = -1) -> GsdFrame:
     except (OSError, RuntimeError) as error:
         raise IoError(f"{path}: cannot be read: {error}") from error
     *edges, xy, xz, yz = (float(edge) for edge in snapshot.configuration.box)
-    if (xy, xz, yz) != (0, 0, 0):
-        raise InputError(f"{path}: box with the tilts {xy}, {xz}, {yz}: expected 0, a rectangular "
-                         "box")
+    for name, tilt in ("xz", xz), ("yz", yz):
+        if tilt != 0:
+            raise InputError(f"{path}: box with the tilt {name} = {tilt}: expected 0, as rows of boxes "
+                             "slide along x by y alone (xy)")
     particles, log = snapshot.particles, snapshot.log
     # Of files of to_gsd(), whose boxes enclose bodies beyond the edges of the run.
     box = np.asarray(log.get("edges", edges), dtype=float)
-    centre = np.asarray(log.get("centre", box / 2), dtype=float)
+    slide, slid = reduced_tilt(xy * box[1], box[0])
+    if "slide" in log:  # in double precision
+        slide = float(log["slide"][0])
+    rate = float(log["shear_rate"][0]) if "shear_rate" in log else 0.0
+    centre = np.asarray(log.get("centre", (box + [xy * box[1], 0, 0]) / 2), dtype=float)
     quaternion = particles.orientation.astype(float)
     quaternion /= np.linalg.norm(quaternion, axis=1, keepdims=True)
     if "particles/angular_velocity" in log:
@@ -127,10 +135,11 @@ def from_gsd(path: str, frame: int = -1) -> GsdFrame:
         angular_velocity = _angular_velocities(particles, quaternion)
     arrays = (particles.position + centre, particles.velocity.astype(float),
               _turned(quaternion, np.array([0.0, 0.0, 1.0])), angular_velocity,
-              particles.image.astype(np.int32), np.arange(particles.N, dtype=np.uint32),
+              counted(particles.image, slid), np.arange(particles.N, dtype=np.uint32),
               particles.typeid.astype(np.uint8))
     return GsdFrame({
-        "state": State.of(arrays, _bodies_of(path, snapshot)), "box": box,
+        "state": State.of(arrays, _bodies_of(path, snapshot),
+                          (slide, rate) if (slide, rate) != (0, 0) else None), "box": box,
         "periodic": np.asarray(log.get("periodic", np.ones(3))).astype(bool),
         "time": float(log["time"][0]) if "time" in log else float("nan"),
         "step": int(snapshot.configuration.step)})
@@ -224,7 +233,12 @@ def _snapshot(frame: Any, gas: Any, names: list[str]) -> Any:
     lengths, masses, shapes = (np.atleast_1d(value) for value in (gas.length, gas.mass, gas.k))
     diameters = np.atleast_1d(gas.get("diameter", np.zeros_like(lengths)))
     low, high = _bounds(frame, np.max(lengths + diameters) / 2)
-    snapshot.configuration.box = [*(high - low), 0, 0, 0]
+    flow = frame.state.get("flow")
+    position, image, tilt = frame.position, frame.image, 0.0
+    if flow:
+        position, image, tilt = _in_tilted_cell(frame, flow["slide"])
+    centre = (low + high + [tilt, 0, 0]) / 2
+    snapshot.configuration.box = [*(high - low), tilt / frame.box[1], 0, 0]
     inertia = masses * lengths**2 / (2 * shapes)
     species = frame.species if len(lengths) > 1 else np.zeros(count, dtype=np.uint8)
     particles = snapshot.particles
@@ -233,8 +247,8 @@ def _snapshot(frame: Any, gas: Any, names: list[str]) -> Any:
     particles.type_shapes = [_shape(length, diameter) for length, diameter in
                              zip(lengths.tolist(), diameters.tolist())]
     particles.typeid = species.astype(np.uint32)
-    particles.position = frame.position - (low + high) / 2
-    particles.image = frame.image
+    particles.position = position - centre
+    particles.image = image
     particles.velocity = frame.velocity
     particles.orientation = quaternions(frame.orientation)
     particles.mass = masses[species]
@@ -245,8 +259,20 @@ def _snapshot(frame: Any, gas: Any, names: list[str]) -> Any:
                     "length": lengths.astype(float), "diameter": diameters.astype(float),
                     "mass": masses.astype(float), "k": shapes.astype(float),
                     "periodic": frame.periodic.astype(np.uint8),
-                    "edges": np.asarray(frame.box, dtype=float), "centre": (low + high) / 2}
+                    "edges": np.asarray(frame.box, dtype=float), "centre": centre}
+    snapshot.log |= {name: np.array([number]) for name, number in (flow or {}).items()}
     return snapshot
+
+
+def _in_tilted_cell(frame: Any, slide: float) -> tuple[np.ndarray, np.ndarray, float]:
+    """Centres in a cell that is tilted by at most half an edge, which HOOMD-blue asks for, their
+    images, and the tilt [L]."""
+    edge, edge_y = frame.box[:2]
+    tilt, edges = reduced_tilt(slide, edge, -edge / 2)
+    boxes = np.floor((frame.position[:, 0] - tilt * frame.position[:, 1] / edge_y) / edge)
+    along_x = np.outer(boxes, [1, 0, 0])
+    image = counted(frame.image, edges) + along_x.astype(np.int32)
+    return frame.position - edge * along_x, image, tilt
 
 
 def _mode(mode: str) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, KeysView, Mapping
+from collections.abc import Iterable, Iterator, KeysView, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -57,8 +57,8 @@ class State(Table):
 
     @classmethod
     def of(cls, arrays: Iterable[np.ndarray], bodies: Bodies,
-           flow: tuple[float, float, np.ndarray] | None = None) -> State:
-        """The state of these arrays, in the order of ARRAYS; `flow` under uniform shear."""
+           flow: Sequence[Any] | None = None) -> State:
+        """The state of these arrays, in the order of ARRAYS; `flow` under uniform shear: slide, rate."""
         values = {**dict(zip(ARRAYS, arrays)), "bodies": bodies}
         if flow is not None:
             values["flow"] = {"slide": flow[0], "shear_rate": flow[1]}

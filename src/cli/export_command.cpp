@@ -83,13 +83,6 @@ void export_frames(const ExportArguments& arguments, const io::ExportFormat& for
   for (std::size_t i = range.begin; i < range.end; ++i) {
     State state = file->read(i);
     require_known_species(state, material, arguments.from);
-    if (state.slide != 0 || state.shear_rate != 0) {
-      throw InputError(
-          fmt::format("{}: frame {} is of a sheared box, whose images have slid: "
-                      "expected a rectangular one, as no format of other programs "
-                      "is written for such boxes yet",
-                      arguments.from, i));
-    }
     writer->add({i, file->time(i), std::move(state)});
   }
   writer->publish();

@@ -73,6 +73,14 @@ void warn_of_walls(const io::Configuration& read, const std::string& path) {
                   printable(path)));
 }
 
+void warn_of_flow(const State& state, const std::string& path) {
+  if (state.slide == 0 || state.shear_rate != 0) return;
+  print_warning(
+      fmt::format("{}: the box is tilted along x, and nothing says at which rate it is sheared: "
+                  "shear.rate = 0 is assumed, so that it stays tilted",
+                  printable(path)));
+}
+
 void warn_of_roundings(const io::Configuration& read, const std::string& path) {
   const io::Roundings& roundings = read.roundings;
   if (roundings.needles == 0) return;
@@ -187,6 +195,13 @@ std::string walls_text(const std::vector<Scene::Wall>& walls,
   return text + fmt::format("[forces]\ngravity = [{}]\n\n", fmt::join(gravity, ", "));
 }
 
+// A sheared box. Where a file does not say the rate of the flow, the box stays tilted as it is.
+std::string shear_text(const State& state) {
+  if (state.slide == 0 && state.shear_rate == 0) return "";
+  return fmt::format("[shear]\nrate = {}{}\n\n", state.shear_rate,
+                     state.shear_rate == 0 ? "  # not from the file" : "");
+}
+
 std::string scene_text(const io::Configuration& read, const std::string& from,
                        const std::string& state_file) {
   const Composition composition = counted(read, from);
@@ -201,14 +216,14 @@ file = {}
 
 [collisions]
 {}
-{}{}[until]
+{}{}{}[until]
 collisions_per_needle = {}  # not from the file: choose an end
 )",
       toml(printable("Imported from " + fs::path(from).filename().string())),
       fmt::join(read.state.box, ", "), species_text(composition, !read.material.length.empty()),
       path_in_toml(state_file), rule_text(composition.restitution(0, 0), read.contact_time),
       pairs_text(composition), walls_text(walls_of(read, from), read.material.gravity),
-      assumed_collisions_per_needle);
+      shear_text(read.state), assumed_collisions_per_needle);
 }
 
 std::optional<std::size_t> frame_number(const std::string& frame) {
@@ -250,7 +265,8 @@ std::vector<std::string> assumed_of_bodies(const io::Material& material) {
 
 void write_state(const std::string& file, bool force, const Scene& scene,
                  const io::Configuration& read) {
-  const State& state = read.state;
+  State state = read.state;
+  if (scene.shear) state.peculiar_velocity = runs::peculiar_velocities(state, scene);
   io::RunInfo run;
   run.isa = "none";  // nothing was computed
   run.species = state.species;
@@ -287,6 +303,7 @@ int run(const ImportArguments& arguments) {
   }
   warn_of_what_is_assumed(read.material, arguments.from);
   warn_of_walls(read, arguments.from);
+  warn_of_flow(read.state, arguments.from);
   for (const std::string& note : read.notes) {
     print_warning(fmt::format("{}: {}", printable(arguments.from), note));
   }

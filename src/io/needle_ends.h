@@ -5,18 +5,21 @@
 #include <vector>
 
 #include "needlework/state.h"
+#include "src/box/tilt.h"
 
 namespace needlework::io {
 
-/// The tail of each needle, then its tip. `lengths` are those of the species [L].
+/// The tail of each needle, then its tip; in a sheared box centres are within its tilted cell.
+/// `lengths` are those of the species [L].
 inline std::vector<std::array<double, 3>> ends_of(const State& state,
                                                   const std::vector<double>& lengths) {
   std::vector<std::array<double, 3>> ends;
+  const TiltedCell cell(state);
   ends.reserve(2 * state.size());
   for (std::size_t i = 0; i < state.size(); ++i) {
     const double length = lengths.at(state.species.empty() ? 0 : state.species[i]);
     for (const double s : {-0.5 * length, 0.5 * length}) {
-      auto& end = ends.emplace_back(state.position[i]);
+      auto& end = ends.emplace_back(cell.position(i));
       for (std::size_t axis = 0; axis < 3; ++axis) end[axis] += s * state.orientation[i][axis];
     }
   }

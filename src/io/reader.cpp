@@ -10,6 +10,7 @@
 
 #include "needlework/error.h"
 #include "needlework/h5md.h"
+#include "src/box/tilt.h"
 #include "src/box/vector.h"
 #include "src/io/bodies.h"
 #include "src/io/frame_rows.h"
@@ -80,9 +81,9 @@ class FrameReader {
   }
 
   std::array<bool, 3> read_periodic() const;
-  Vector read_box(double& slide);
+  Vector read_box(double& xy);
   bool has_row_a_frame(const Element& edges) const;
-  Vector diagonal(const Slice& edges, double& slide) const;
+  Vector diagonal(const Slice& edges, double& xy) const;
   double read_shear_rate() const;
   std::vector<Vector> read_vectors(const std::string& name);
   std::vector<std::array<std::int32_t, 3>> read_images();
@@ -138,7 +139,10 @@ State FrameReader::read(std::size_t frame) {
   }
   frame_ = frame;
   State state;
-  state.box = read_box(state.slide);
+  double xy = 0;
+  state.box = read_box(xy);
+  const Tilt tilt = reduced_tilt(xy, state.box[0]);
+  state.slide = tilt.rest;
   state.periodic = read_periodic();
   state.shear_rate = read_shear_rate();
   state.position = read_vectors("position");
@@ -146,6 +150,7 @@ State FrameReader::read(std::size_t frame) {
   state.orientation = read_vectors("orientation");
   state.angular_velocity = read_vectors("angular_velocity");
   if (has("image")) state.image = read_images();
+  for (auto& image : state.image) image = tilt.counted(image);
   if (has("id")) state.id = read_ids();
   if (has("species")) state.species = read_species();
   require_needles(state);
@@ -191,7 +196,7 @@ double FrameReader::read_shear_rate() const {
   return rate;
 }
 
-Vector FrameReader::read_box(double& slide) {
+Vector FrameReader::read_box(double& xy) {
   const Element& edges = element("box/edges");
   const Shape& shape = edges.shape();
   const std::size_t rank = shape.size();
@@ -205,13 +210,13 @@ Vector FrameReader::read_box(double& slide) {
     const auto values = edges.read<double>({});
     std::copy_n(values.begin(), 3, box.begin());
   } else if (rank == 3) {
-    box = diagonal(slice(edges, 2), slide);
+    box = diagonal(slice(edges, 2), xy);
   } else {
     if (has_row_a_frame(edges)) {
       const auto values = edges.read<double>(*slice(edges, 1).frame);
       std::copy_n(values.begin(), 3, box.begin());
     } else {
-      box = diagonal({&edges, {}}, slide);
+      box = diagonal({&edges, {}}, xy);
     }
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -236,8 +241,8 @@ bool FrameReader::has_row_a_frame(const Element& edges) const {
                               std::equal(first.begin(), first.end(), values.begin() + 6));
 }
 
-// The edges of a box, of which the one along y may be tilted along x: `slide`.
-Vector FrameReader::diagonal(const Slice& edges, double& slide) const {
+// The edges of a box, of which the one along y may be tilted along x: `xy`.
+Vector FrameReader::diagonal(const Slice& edges, double& xy) const {
   const auto matrix = edges.element->read<double>(edges.frame);
   Vector box{};
   for (std::size_t i = 0; i < 9; ++i) {
@@ -247,7 +252,7 @@ Vector FrameReader::diagonal(const Slice& edges, double& slide) const {
       if (!std::isfinite(matrix[i]))
         reject(place(*edges.element),
                fmt::format("{}[1] = {}: expected a finite number", edges.index(0), matrix[i]));
-      slide = matrix[i] - std::floor(matrix[i] / matrix[0]) * matrix[0];
+      xy = matrix[i];
     } else if (matrix[i] != 0) {
       reject(place(*edges.element), fmt::format("{}[{}] = {}: expected 0, a box that is "
                                                 "rectangular or tilted along x by y",

@@ -14,7 +14,7 @@ Vector corner(const Region& region, std::size_t number, double margin = 0) {
     point[axis] =
         (number >> axis & 1) != 0 ? region.high[axis] + margin : region.low[axis] - margin;
   }
-  return point;
+  return region.tilted(point);
 }
 
 }  // namespace
@@ -33,6 +33,8 @@ Camera::Camera(const Region& region, double margin, const CameraSettings& settin
     middle_[axis] = (region.low[axis] + region.high[axis]) / 2;
     edges[axis] = region.high[axis] - region.low[axis];
   }
+  middle_ = region.tilted(middle_);
+  edges[0] += std::abs(region.tilt);
   // Far enough for every corner to be in front of the camera.
   if (!settings.orthographic) distance_ = 1.4 * (std::sqrt(dot(edges, edges)) + 2 * margin);
 

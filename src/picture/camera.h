@@ -1,4 +1,4 @@
-// How a rectangular region, such as the box, is seen from outside.
+// How a region with straight edges, such as the box, is seen from outside.
 #pragma once
 
 #include <array>
@@ -19,9 +19,16 @@ struct CameraSettings {
   bool orthographic = false;
 };
 
-/// A rectangular part of space, between two corners [L].
+/// A part of space between two corners [L]: rectangular, or tilted along x.
 struct Region {
   Vector low{}, high{};
+  double tilt = 0;  ///< of the upper end along y over the lower one [L]
+
+  /// Where a point of the rectangle is in the region.
+  Vector tilted(Vector point) const {
+    if (tilt != 0) point[0] += tilt * (point[1] - low[1]) / (high[1] - low[1]);
+    return point;
+  }
 };
 
 /// A part of the picture that the region has to fit into [pixels].

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "src/box/box.h"
+#include "src/box/tilt.h"
 #include "src/picture/needle_values.h"
 #include "src/picture/stroke_font.h"
 #include "src/picture/walls.h"
@@ -57,6 +58,7 @@ class Painter {
   Painter(const State& state, const NeedlePicture& settings)
       : state_(state),
         box_(box_of(state)),
+        cell_(state),
         settings_(settings),
         theme_(theme_of(settings.dark)),
         unit_(std::max(least_unit, std::min(settings.width, settings.height) / 832.0)),
@@ -125,7 +127,7 @@ class Painter {
         Vector to = from;
         to[along] = region_.high[along];
         const bool is_outline = n == 0 || n == lines;
-        draw_line(from, to, is_outline ? 2.2 : 0.9,
+        draw_line(region_.tilted(from), region_.tilted(to), is_outline ? 2.2 : 0.9,
                   is_outline ? colour : mixed(colour, theme_.ground, 0.55));
       }
     }
@@ -148,10 +150,12 @@ class Painter {
     }
   }
 
+  // In the box that is drawn.
+  Vector place_of(const Vector& centre) const { return cell_.inside(box_.wrap(centre).place); }
+
   void draw_needles(const NeedleValues& values) {
     std::vector<Seen> middles;
-    for (const Vector& centre : state_.position)
-      middles.push_back(camera_.see(box_.wrap(centre).place));
+    for (const Vector& centre : state_.position) middles.push_back(camera_.see(place_of(centre)));
     std::vector<std::size_t> order(state_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -167,7 +171,7 @@ class Painter {
   void draw_needle(std::size_t i, const Seen& middle, Colour colour) {
     const std::size_t species = state_.species.empty() ? 0 : state_.species[i];
     const double length = settings_.lengths.at(species);
-    const Vector centre = box_.wrap(state_.position[i]).place;
+    const Vector centre = place_of(state_.position[i]);
     std::array<Vector, 2> ends{centre, centre};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double half = length / 2 * state_.orientation[i][axis];
@@ -228,6 +232,7 @@ class Painter {
         settings_.lengths.size() == 1 ? "length" : "lengths", fmt::join(settings_.lengths, ", "),
         state_.periodic == std::array{true, true, true} ? "periodic " : "", state_.box[0],
         state_.box[1], state_.box[2]);
+    if (cell_.is_sheared()) drawing_.description += fmt::format(", tilted by {:g}", cell_.xy());
     if (!settings_.diameters.empty())
       drawing_.description +=
           fmt::format(", of diameter {:g}", fmt::join(settings_.diameters, ", "));
@@ -252,6 +257,7 @@ class Painter {
 
   const State& state_;
   Box box_;
+  TiltedCell cell_;
   const NeedlePicture& settings_;
   Theme theme_;
   double unit_;  // of what is drawn, in pixels: 1 in a picture of the usual size

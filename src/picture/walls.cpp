@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "src/box/tilt.h"
+
 namespace needlework::picture {
 namespace {
 
@@ -52,7 +54,7 @@ std::string description_of(const Scene::Wall& wall) {
 }
 
 Region region_of(const State& state, std::span<const WallSurface> walls) {
-  Region region{{}, state.box};
+  Region region{{}, state.box, TiltedCell(state).xy()};
   const auto include = [&](std::size_t axis, double place) {
     region.low[axis] = std::min(region.low[axis], place);
     region.high[axis] = std::max(region.high[axis], place);

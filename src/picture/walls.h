@@ -34,7 +34,8 @@ std::vector<WallSurface> surfaces_of(std::span<const Scene::Wall> walls, const V
 /// Axis and side, what is special about the wall, and its restitution, in words.
 std::string description_of(const Scene::Wall& wall);
 
-/// The box and, along axes that are not periodic, all centres and surfaces beyond it.
+/// The box, tilted if it is sheared, and, along axes that are not periodic, all centres and
+/// surfaces beyond it.
 Region region_of(const State& state, std::span<const WallSurface> walls);
 
 /// Whether a side of the box is open: there is a wall at the other end of its axis only.

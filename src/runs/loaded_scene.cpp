@@ -89,6 +89,12 @@ static std::array<double, 3> velocity_of(const State& state, const Scene& scene,
   return out;
 }
 
+std::vector<std::array<double, 3>> peculiar_velocities(const State& state, const Scene& scene) {
+  std::vector<std::array<double, 3>> out;
+  for (std::size_t i = 0; i < state.size(); ++i) out.push_back(velocity_of(state, scene, i));
+  return out;
+}
+
 Totals totals_of(const State& state, const Scene& scene) {
   const Composition composition = scene.composition();
   const std::vector<SpeciesIndex> indices = composition.in_order_of_id(state.species);

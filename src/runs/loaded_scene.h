@@ -31,6 +31,9 @@ LoadedScene complete_scene(Scene given, State initial);
 /// scene; else empty.
 std::string warning_of_unknown_bodies(const LoadedScene& loaded);
 
+/// Velocities beside the flow of [shear], where there is one [L / time].
+std::vector<std::array<double, 3>> peculiar_velocities(const State& state, const Scene& scene);
+
 /// The state's sums at time 0.
 Totals totals_of(const State& state, const Scene& scene);
 

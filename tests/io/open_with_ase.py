@@ -88,6 +88,56 @@ def check_way_back(program, folder):
         assert np.max(np.abs(frames[1][key] - wanted)) < 2e-8, key
 
 
+SHEARED = """
+needles = { count = 40, box = [5, 6, 7] }
+shear = { rate = RATE }
+collisions = { epsilon = 0.9, tc_relative = 1e-3 }
+until.time = 9
+output.frames_every = 1.5
+"""
+
+
+def check_sheared(program, folder, rate):
+    """Cells of ASE are those of the frames, hold the atoms, and have them where they are, whether of
+    XYZ or of a dump; what ASE writes of them is imported with its slide."""
+    def run(*command):
+        return subprocess.run([program, *command], cwd=folder, check=True, timeout=3600, text=True,
+                              capture_output=True).stderr
+
+    with open(os.path.join(folder, "sheared.toml"), "w") as file:
+        file.write(SHEARED.replace("RATE", str(rate)))
+    run("run", "sheared.toml", "--out", "sheared.h5", "--quiet", "--force")
+    with h5py.File(os.path.join(folder, "sheared.h5")) as file:
+        group = file["particles/needles"]
+        edges, positions = group["box/edges/value"][:], group["position/value"][:]
+    for name, form in (("sheared.xyz", "extxyz"), ("sheared.dump", "lammps-dump-text")):
+        run("export", "sheared.h5", name, "--force")
+        frames = ase.io.read(os.path.join(folder, name), index=":", format=form)
+        assert len(frames) == len(edges) == 7
+        tilts = []
+        for atoms, cell, wanted in zip(frames, edges, positions):
+            tilt = atoms.cell.array[1, 0]
+            tilts.append(tilt)
+            assert -2.5 <= tilt < 2.5, tilt
+            off = (tilt - cell[1, 0]) / 5
+            assert abs(off - round(off)) < 1e-15, (tilt, cell)
+            assert np.allclose(np.delete(atoms.cell.array.ravel(), 3), np.delete(cell.ravel(), 3),
+                               rtol=1e-15, atol=0)
+            scaled = atoms.get_scaled_positions(wrap=False)
+            assert np.all((scaled > -1e-14) & (scaled < 1 + 1e-14))
+            apart = (atoms.positions - wanted) @ np.linalg.inv(cell)
+            assert np.max(np.abs(apart - np.round(apart))) < 1e-14
+        assert min(tilts) < 0 < max(tilts), tilts
+    ase.io.write(os.path.join(folder, "back.xyz"), ase.io.read(os.path.join(folder, "sheared.xyz")))
+    said = run("import", "back.xyz", "--out", "sheared-back", "--force")
+    assert "shear" not in said, said
+    run("run", "sheared-back/scene.toml", "--quiet")
+    with h5py.File(os.path.join(folder, "sheared-back/state.h5")) as file:
+        box = file["particles/needles/box"]
+        assert abs(box["edges/value"][0, 1, 0] - edges[-1, 1, 0]) < 1e-7
+        assert abs(box.attrs["shear_rate"] - rate) < 1e-15
+
+
 def main(writer, program):
     with tempfile.TemporaryDirectory() as folder:
         result = subprocess.run([writer, folder], timeout=3600)
@@ -98,6 +148,8 @@ def main(writer, program):
                            timeout=3600)
             check(path)
         check_way_back(program, folder)
+        for rate in (0.7, -0.45):
+            check_sheared(program, folder, rate)
 
 
 if __name__ == "__main__":

@@ -52,6 +52,12 @@ pair_style zero 1.0
 pair_coeff * *
 run 0
 """
+SHEARED = """
+needles = { count = 50, box = [6, 7, 8] }
+shear = { rate = RATE }
+collisions = { epsilon = 0.9, tc_relative = 1e-3 }
+until.time = 7.3
+"""
 READ_DUMP = """
 region box block 0 6 0 7 0 8
 create_box 1 box
@@ -69,7 +75,8 @@ def needles(path):
         group = file["particles/needles"]
         order = np.argsort(group["id"][:])
         names = ("position", "velocity", "orientation", "angular_velocity", "image")
-        return {name: group[name]["value"][-1][order] for name in names}
+        return {"tilt": group["box/edges/value"][-1, 1, 0],
+                **{name: group[name]["value"][-1][order] for name in names}}
 
 
 def lammps(folder, read, script=SCRIPT):
@@ -90,6 +97,47 @@ def lammps_reads_what_is_beyond_edges(folder, program):
     run(folder, program, "import", "beyond.data", "--out", "beyond")
     found = needles(os.path.join(folder, "beyond", "state.h5"))
     assert np.array_equal(found["position"], wanted["position"])
+
+
+def path(needles, tilt):
+    """Where needles would be without boundaries, in boxes that are tilted like this."""
+    return needles["position"] + needles["image"] @ np.array([[6, 0, 0], [tilt, 7, 0], [0, 0, 8]])
+
+
+def lammps_reads_sheared_boxes(folder, program, rate):
+    with open(os.path.join(folder, "sheared.toml"), "w") as file:
+        file.write(SHEARED.replace("RATE", str(rate)))
+    run(folder, program, "run", "sheared.toml", "--out", "sheared.h5", "--quiet", "--force")
+    for name in ("sheared.data", "sheared.dump"):
+        run(folder, program, "export", "sheared.h5", name, "--frame", "last", "--force")
+    wanted = needles(os.path.join(folder, "sheared.h5"))
+    tilt = wanted["tilt"] - 6 * (wanted["tilt"] >= 3)
+    lammps(folder, "read_data sheared.data")
+    with open(os.path.join(folder, "sheared.dump")) as file:
+        step = file.read().split("ITEM: TIMESTEP\n")[1].split()[0]
+    shutil.copy(os.path.join(folder, "back.dump"), os.path.join(folder, "of_data.dump"))
+    for name in ("of_data.dump", "back.data", "scaled.dump", "unwrapped.dump"):
+        run(folder, program, "import", name, "--out", "sheared-back", "--force")
+        found = needles(os.path.join(folder, "sheared-back", "state.h5"))
+        assert abs(found["tilt"] - wanted["tilt"]) < 1e-14, (name, found["tilt"], wanted["tilt"])
+        if name == "scaled.dump":
+            apart = (found["position"] - wanted["position"]) @ np.linalg.inv(
+                [[6, 0, 0], [tilt, 7, 0], [0, 0, 8]])
+            assert np.max(np.abs(apart - np.round(apart))) < 1e-14, name
+        else:
+            error = np.max(np.abs(path(found, found["tilt"]) - path(wanted, wanted["tilt"])))
+            assert error < 1e-12, (name, error)
+        for key in ("velocity", "orientation", "angular_velocity"):
+            assert np.max(np.abs(found[key] - wanted[key])) < 1e-14, (name, key)
+    # As LAMMPS itself has them, from the dump.
+    lammps(folder, READ_DUMP.replace("block 0 6 0 7 0 8", f"prism 0 6 0 7 0 8 {tilt} 0 0")
+           .replace("run.dump 1", f"sheared.dump {step}"))
+    table = np.loadtxt(os.path.join(folder, "back.dump"), skiprows=9)
+    table = table[np.argsort(table[:, 0])]
+    read = {"position": table[:, 2:5], "image": table[:, 5:8]}
+    assert np.max(np.abs(path(read, tilt) - path(wanted, wanted["tilt"]))) < 1e-12
+    assert np.max(np.abs(table[:, 8:11] - wanted["velocity"])) < 1e-14
+    return tilt
 
 
 def main(_writer, program):
@@ -130,6 +178,8 @@ def main(_writer, program):
                              ("velocity", slice(8, 11))]:
             assert np.array_equal(table[:, columns], wanted[key]), key
         lammps_reads_what_is_beyond_edges(folder, program)
+        tilts = [lammps_reads_sheared_boxes(folder, program, rate) for rate in (0.6, -0.5)]
+        assert min(tilts) < 0 < max(tilts), tilts
 
 
 if __name__ == "__main__":

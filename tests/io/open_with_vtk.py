@@ -151,6 +151,40 @@ def check_walls(folder, program):
     same(vtk_to_numpy(grid.GetFieldData().GetArray("periodic")), np.array([1, 0, 1]), "periodic")
 
 
+SHEARED = """
+needles = { count = 20, box = [4, 5, 6] }
+shear = { rate = -0.3 }
+until.time = 4
+output.frames_every = 1
+"""
+
+
+def check_sheared(folder, program):
+    """The outline of a sheared box has eight corners that are tilted, and needles within."""
+    scene, run = os.path.join(folder, "sheared.toml"), os.path.join(folder, "sheared.h5")
+    with open(scene, "w", encoding="utf-8") as file:
+        file.write(SHEARED)
+    subprocess.run([program, "run", scene, "--out", run, "--quiet"], check=True, timeout=3600)
+    subprocess.run([program, "export", run, os.path.join(folder, "sheared.pvd")], check=True,
+                   timeout=3600)
+    with h5py.File(run) as file:
+        tilts = file["particles/needles/box/edges/value"][:, 1, 0]
+    tilts = tilts - 4 * (tilts >= 2)
+    assert len(tilts) == 5 and min(tilts) < 0 < max(tilts), tilts
+    for frame, tilt in enumerate(tilts):
+        grid = read_grid(os.path.join(folder, "sheared", f"box-{frame:05}.vtu"))
+        corners = {tuple(np.round(point, 9)) for point in vtk_to_numpy(grid.GetPoints().GetData())}
+        assert corners == {(round(4.0 * x + tilt * y, 9), 5.0 * y, 6.0 * z) for x in (0, 1)
+                           for y in (0, 1) for z in (0, 1)}, corners
+        lengths = sorted(grid.GetCell(i).GetLength2() for i in range(12))
+        assert np.allclose(lengths, sorted(4 * [16] + 4 * [25 + tilt**2] + 4 * [36])), lengths
+        needles = read_grid(os.path.join(folder, "sheared", f"frame-{frame:05}.vtu"))
+        ends = vtk_to_numpy(needles.GetPoints().GetData())
+        centres = (ends[::2] + ends[1::2]) / 2
+        along = centres[:, 0] - tilt * centres[:, 1] / 5
+        assert np.all((along > -1e-12) & (along < 4 + 1e-12)), along
+
+
 def main(writer, program):
     with tempfile.TemporaryDirectory() as folder:
         result = subprocess.run([writer, folder], timeout=3600)
@@ -167,6 +201,7 @@ def main(writer, program):
             assert check_collection(folder, "sample", 5, program) == 7
             check_collection(folder, "empty", 0, program)
             check_walls(folder, program)
+            check_sheared(folder, program)
     if not vtkHDFReader:
         print("read with h5py, but not with VTK: python3-vtk9 is not installed")
         sys.exit(77)  # skipped

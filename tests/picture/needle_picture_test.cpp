@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <pugixml.hpp>
+#include <utility>
+#include <vector>
 
 #include "src/picture/needle_values.h"
 #include "src/picture/stroke_font.h"
@@ -39,6 +42,54 @@ TEST(NeedlePictures, ShowEachNeedleAndTwelveEdges) {
   EXPECT_EQ(needles(drawing).size(), 3);
   EXPECT_EQ(drawing.strokes.size(), 3 + 12);
   EXPECT_EQ(drawing_of(needles_at(8, {}), settings).strokes.size(), 12);
+}
+
+// From above, in lengths: where a stroke begins and ends.
+TEST(NeedlePictures, ShowTheTiltOfShearedBoxes) {
+  NeedlePicture settings;
+  settings.colour = "none";
+  settings.camera = {-90, 90, true};  // x to the right, y upwards
+  State state = needles_at(8, {{7, 7, 4}, {1, 1, 4}, {15, 4, 4}});
+  state.slide = 6;  // tilted by -2
+  const Drawing drawing = drawing_of(state, settings);
+  ASSERT_EQ(drawing.strokes.size(), 3 + 12);
+  std::vector<Point> corners;
+  for (const Stroke& stroke : drawing.strokes) {
+    if (stroke.halo == 0) corners.insert(corners.end(), {stroke.from, stroke.to});
+  }
+  ASSERT_EQ(corners.size(), 24);
+  const auto below = [](const Point& a, const Point& b) { return a.y > b.y + 1e-6; };
+  Point low = corners[0], left = corners[0], right = corners[0];
+  for (const Point& corner : corners) {
+    if (below(corner, low) || (!below(low, corner) && corner.x < low.x)) low = corner;
+    if (corner.x < left.x) left = corner;
+    if (corner.x > right.x) right = corner;
+  }
+  const double scale = (right.x - left.x) / 10;  // from -2 to 8
+  const auto place = [&](double x, double y) {
+    return Point{low.x + scale * x, low.y - scale * y};
+  };
+  for (const auto& [x, y] : {std::pair(0, 0), {8, 0}, {-2, 8}, {6, 8}}) {
+    const Point wanted = place(x, y);
+    EXPECT_EQ(std::count_if(corners.begin(), corners.end(),
+                            [&](const Point& corner) {
+                              return std::hypot(corner.x - wanted.x, corner.y - wanted.y) < 1e-6;
+                            }),
+              6)
+        << x << ", " << y;
+  }
+  // Centres are in the box that is drawn.
+  std::vector<double> places;
+  for (const Stroke& stroke : needles(drawing)) {
+    EXPECT_NEAR(length(stroke), scale, 1e-6);
+    places.push_back(((stroke.from.x + stroke.to.x) / 2 - low.x) / scale);
+  }
+  std::sort(places.begin(), places.end());
+  ASSERT_EQ(places.size(), 3);
+  EXPECT_NEAR(places[0], -1, 1e-6);
+  EXPECT_NEAR(places[1], -1, 1e-6);
+  EXPECT_NEAR(places[2], 1, 1e-6);
+  EXPECT_TRUE(test::contains(drawing.description, "by 8 by 8, tilted by -2"));
 }
 
 TEST(NeedlePictures, ShowNeedlesInTheirLength) {

@@ -208,6 +208,71 @@ class GsdFiles(support.InFolder):
                          {"length": 2, "diameter": 0, "mass": 3, "k": 12})
         self.assertTrue(np.isnan(frame.time))
 
+    def test_sheared_boxes_have_their_tilt(self):
+        box = np.array([5.0, 6.0, 7.0])
+        for rate in (1.5, -0.8):
+            run, out = self.path("sheared.h5"), self.path("sheared.gsd")
+            scene = {"needles": {"count": 40, "box": list(box)}, "shear": {"rate": rate},
+                     "collisions": {"epsilon": 0.9, "tc_relative": 1e-3},
+                     "output": {"file": run, "frames": [0.1, 2.0, 4.3, 9.7]}}
+            with needlework.Simulation(scene, force=True) as sim:
+                sim.run(time=9.7)
+                needlework.to_gsd(sim, out, force=True)
+                self.assert_tilted(out, [sim], box, rate)
+            needlework.to_gsd(run, out, force=True)
+            with needlework.read(run) as recording:
+                tilts = self.assert_tilted(out, recording.frames, box, rate)
+                self.assertLess(min(tilts), 0)
+                self.assertGreater(max(tilts), 0)
+                again = needlework.Simulation({**scene, "needles": {"box": list(box)}, "output": {}},
+                                              **needlework.from_gsd(out).state)
+                np.testing.assert_allclose(again.velocity, recording.frames[-1].velocity, rtol=1e-6,
+                                           atol=1e-6)
+
+    def assert_tilted(self, path, frames, box, rate):
+        """Centres in the cell, and the same paths in its lattice; returns the tilts."""
+        close, tilts = np.testing.assert_allclose, []
+        with gsd.hoomd.open(path, MODE["r"]) as file:
+            self.assertEqual(len(file), len(frames))
+            for number, (snapshot, frame) in enumerate(zip(file, frames)):
+                self.assertEqual(snapshot.configuration.box[4:].tolist(), [0, 0])
+                tilt = snapshot.configuration.box[3] * box[1]
+                tilts.append(tilt)
+                self.assertLessEqual(abs(tilt), box[0] / 2)
+                cell = np.array([[box[0], 0, 0], [tilt, box[1], 0], [0, 0, box[2]]])
+                found = snapshot.particles.position.astype(float)
+                self.assertLess(np.abs(found @ np.linalg.inv(cell)).max(), 0.5 + 1e-6)
+                paths = found + cell.sum(axis=0) / 2 + snapshot.particles.image @ cell
+                slide = frame.state["flow"]["slide"]
+                rows = np.array([[box[0], 0, 0], [slide, box[1], 0], [0, 0, box[2]]])
+                close(paths, frame.position + frame.image @ rows, atol=2e-5)
+                back = needlework.from_gsd(path, number).state
+                self.assertEqual(dict(back["flow"]), dict(frame.state["flow"]))
+                self.assertAlmostEqual(back["flow"]["shear_rate"], rate, places=12)
+                close(back.position + back.image @ rows, paths, atol=2e-5)
+        return tilts
+
+    def test_tilts_of_other_programs_are_slides(self):
+        snapshot = SNAPSHOT()
+        particles = snapshot.particles
+        particles.N, particles.types, particles.typeid = 1, ["A"], [0]
+        particles.position, particles.velocity = [[-2, 0, 1]], [[1, 0, 0]]
+        particles.orientation, particles.image = [[1, 0, 0, 0]], [[3, 2, 1]]
+        out = self.path("hoomd.gsd")
+        for tilts, expected in (([-0.5, 0, 0], 3.0), ([0, 0.5, 0], "xz = 0.5: expected 0"),
+                                ([0, 0, 0.25], "yz = 0.25: expected 0")):
+            snapshot.configuration.box = [6, 6, 6, *tilts]
+            with gsd.hoomd.open(out, MODE["w"]) as file:
+                file.append(snapshot)
+            if isinstance(expected, str):
+                with self.assertRaisesRegex(needlework.InputError, expected):
+                    needlework.from_gsd(out)
+                continue
+            state = needlework.from_gsd(out).state
+            self.assertEqual(state["flow"], {"slide": expected, "shear_rate": 0})
+            np.testing.assert_array_equal(state.position, [[-2 + 1.5, 3, 4]])
+            np.testing.assert_array_equal(state.image, [[3 - 2, 2, 1]])
+
     def test_existing_files_are_kept(self):
         out = self.path("run.gsd")
         needlework.to_gsd(self.run, out)

@@ -67,6 +67,13 @@ class Shear(unittest.TestCase):
             on = Simulation({"initial": {"file": str(file)}, "collisions": COLLISIONS,
                              "shear": {"rate": 1.5}})
             np.testing.assert_array_equal(on.position, state.position)
+            with needlework.read(file) as recording:
+                last = recording.frames[-1]
+                self.assertEqual(last.state["flow"], state["flow"])
+                again = Simulation({"needles": {"box": list(last.box)}, "collisions": COLLISIONS,
+                                    "shear": {"rate": 1.5}}, **last.state)
+                np.testing.assert_array_equal(again.velocity, on.velocity)
+                np.testing.assert_array_equal(again.image, state.image)
             np.testing.assert_allclose(on.peculiar_velocity, beside, atol=1e-13)
             with self.assertRaisesRegex(InputError, "expected a scene with \\[shear\\]"):
                 Simulation({"initial": {"file": str(file)}})

@@ -11,7 +11,15 @@ namespace needlework::io {
 
 struct Bounds {
   std::array<double, 3> low{}, high{};  ///< [L]
-  bool are_edges = true;                ///< whether they are 0 and the edges of the box
+  bool are_edges = true;                ///< whether the edges of the box follow from them
+
+  /// Those of a cell with a tilt xy along x [L], as LAMMPS has them in dumps.
+  void include(double tilt, const std::array<double, 3>& edges) {
+    const double least = std::min(0.0, tilt), most = std::max(0.0, tilt);
+    low[0] += least;
+    high[0] += most;
+    are_edges &= high[0] - most - (low[0] - least) == edges[0];  // but for a rounding
+  }
 };
 
 /// The edges of the box and, along an axis that is not periodic, where centres are beyond them as

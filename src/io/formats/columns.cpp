@@ -93,6 +93,13 @@ void require_all_vectors(const Columns& columns, const ColumnNames& names, const
   if (!missing.empty()) head.reject(fmt::format("{}", fmt::join(missing, "; ")));
 }
 
+NeedleReader::NeedleReader(const Columns& columns, Configuration& configuration)
+    : columns_(columns),
+      configuration_(configuration),
+      tilt_(reduced_tilt(columns.tilt, configuration.state.box[0])) {
+  configuration.state.slide = tilt_.rest;
+}
+
 void NeedleReader::reserve(std::int64_t count, std::size_t bytes) {
   // A digit and a blank, or the end of the line, for each column.
   const std::size_t n = std::min(static_cast<std::size_t>(count), bytes / (2 * columns_.count) + 1);
@@ -142,7 +149,8 @@ void NeedleReader::take_edges(const Row& row) {
   State& state = configuration_.state;
   const Vector edges = read_vector(row, *columns_.edges, "edges");
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (state.periodic[axis]) continue;
+    const bool is_tilted = axis == 0 && columns_.tilt != 0;
+    if (state.periodic[axis] && !is_tilted) continue;
     if (!(edges[axis] > 0) || (!state.position.empty() && edges[axis] != state.box[axis])) {
       row.reject(fmt::format("edge {} = {}: expected a number > 0, the same in all rows",
                              "xyz"[axis], edges[axis]));
@@ -159,7 +167,7 @@ void NeedleReader::read_position(const Row& row) {
   Shift image{};
   if (columns_.unwrapped) {
     // Scaled positions are in a box with edges of 1, from 0 on.
-    const Box box(columns_.scaled ? Vector{1, 1, 1} : state.box, state.periodic);
+    const Box box = columns_.scaled ? Box({1, 1, 1}, state.periodic) : box_of(state);
     Vector from_corner = r;
     if (!columns_.scaled)
       for (std::size_t axis = 0; axis < 3; ++axis) from_corner[axis] -= columns_.lower[axis];
@@ -170,15 +178,19 @@ void NeedleReader::read_position(const Row& row) {
                              read[axis], most_images));
     }
     image = shift_of(boxes);
+    if (columns_.scaled) image = tilt_.counted(image);
     // With one rounding, so that a position comes back as it was wrapped.
     r = box.less(r, boxes);
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double edge = state.box[axis], lower = columns_.lower[axis];
     const bool periodic = state.periodic[axis];
-    // A box that is not periodic begins at 0, as walls lie at 0 and at the edge.
-    if (columns_.scaled) r[axis] = (periodic ? lower : 0) + r[axis] * edge;
-    if (!columns_.scaled && !periodic) r[axis] -= lower;
+    // A box that is not periodic begins at 0, as walls lie at 0 and at the edge, and so does one in
+    // which there may be a flow.
+    const bool begins_at_0 = !periodic || columns_.tilt != 0;
+    if (columns_.scaled) r[axis] = (begins_at_0 ? 0 : lower) + r[axis] * edge;
+    if (columns_.scaled && axis == 0 && columns_.tilt != 0) r[0] += columns_.tilt * r[1];
+    if (!columns_.scaled && begins_at_0) r[axis] -= lower;
     if (!std::isfinite(r[axis])) {
       row.reject(fmt::format("position {} = {}: expected a number of boxes that a double can hold",
                              "xyz"[axis], read[axis]));
@@ -193,7 +205,7 @@ void NeedleReader::read_position(const Row& row) {
           row.read_whole((*columns_.image)[axis], "image", -most_images, most_images));
       if (!state.periodic[axis]) image[axis] = 0;
     }
-    state.image.push_back(image);
+    state.image.push_back(tilt_.counted(image));
   }
 }
 
@@ -443,6 +455,24 @@ void set_material(Material& material, std::string_view name, std::string_view va
     }
     if (numbers.empty()) row.reject(fmt::format("{} =: expected a number", name));
   }
+}
+
+void require_no_other_tilt(double xz, double yz, const Row& row) {
+  for (const auto& [name, tilt] : {std::pair("xz", xz), {"yz", yz}}) {
+    if (tilt == 0) continue;
+    row.reject(fmt::format(
+        "tilt {} = {}: expected 0, as rows of boxes slide along x by y alone (xy)", name, tilt));
+  }
+}
+
+void set_flow(State& state, std::string_view name, std::string_view value, const Row& row) {
+  if (name != "shear_rate") return;
+  if (read_decimal(value, state.shear_rate) != std::errc())
+    row.reject(fmt::format("shear_rate = {}: expected a finite number", quotation(value)));
+}
+
+std::string text_of_flow(const State& state) {
+  return state.shear_rate == 0 ? "" : fmt::format(" shear_rate={}", state.shear_rate);
 }
 
 std::array<double, 3> read_edges(std::string_view value, const Row& row) {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "src/box/tilt.h"
 #include "src/box/vector.h"
 #include "src/io/formats/configuration.h"
 #include "src/io/formats/lines.h"
@@ -39,6 +40,7 @@ struct Columns {
   bool unwrapped = false;            ///< positions are not wrapped into the box: images follow from
                                      ///< them
   std::array<double, 3> lower = {};  ///< bounds of the box [L]
+  double tilt = 0;                   ///< xy of the box, in which images are counted [L]
 };
 
 /// What the columns of each vector are called in a format, as messages say it.
@@ -53,9 +55,8 @@ void require_all_vectors(const Columns& columns, const ColumnNames& names, const
 /// Appends the needles of a table to a configuration, line by line.
 class NeedleReader {
  public:
-  /// `configuration` must outlive this object, and its box must be known.
-  NeedleReader(const Columns& columns, Configuration& configuration)
-      : columns_(columns), configuration_(configuration) {}
+  /// `configuration` must outlive this object, and its box must be known. Sets its slide.
+  NeedleReader(const Columns& columns, Configuration& configuration);
 
   /// Takes memory for so many needles that follow, but for no more than a text of so many bytes can
   /// hold.
@@ -89,6 +90,7 @@ class NeedleReader {
 
   Columns columns_;
   Configuration& configuration_;
+  Tilt tilt_;
   // Bodies that a quaternion turns, and that turn about their own axes as well.
   std::size_t spinning_ = 0;
   // Of which the rounding of a number with so many decimals is a large part.
@@ -105,6 +107,14 @@ void set_material(Material& material, std::string_view name, std::string_view va
 /// some, "walls=z-low,z-high wall_epsilon=1,0.9" and "gravity=0,0,-1". Temperature and motion of
 /// walls are left out.
 std::string text_of(const Material& material);
+
+/// Throws InputError for the tilts of a box that are not those of rows that slide along x.
+void require_no_other_tilt(double xz, double yz, const Row& row);
+
+/// What text_of_flow() says, by its name. Throws InputError for what is not a number.
+void set_flow(State& state, std::string_view name, std::string_view value, const Row& row);
+/// " shear_rate=1.5", or nothing without a flow.
+std::string text_of_flow(const State& state);
 
 /// "5,5,6", three numbers above 0: the edges of a box whose bounds enclose more.
 std::array<double, 3> read_edges(std::string_view value, const Row& row);

@@ -66,6 +66,13 @@ class DynamoWriter : public FrameWriter {
   }
 
   void add(const Frame& frame) override {
+    if (frame.state.slide != 0 || frame.state.shear_rate != 0) {
+      throw InputError(
+          fmt::format("{}: frame {} is of a sheared box: expected one whose images are at rest, as "
+                      "the Lees-Edwards boundary of DynamO is not written; H5MD, XYZ and LAMMPS "
+                      "have its tilt",
+                      path_, frame.number));
+    }
     ranges_ = ranges_of(frame.state, composition_, path_);
     write_simulation(frame.state);
     file_.print("  <Properties/>\n  <ParticleData{}>\n", spheres_ ? "" : " OrientationData=\"Y\"");

@@ -22,16 +22,16 @@ namespace needlework::io {
 bool is_lammps_dump(std::string_view beginning);
 bool is_lammps_data(std::string_view beginning);
 
-/// Reads a frame, counted from 0, or the last one of a dump in text with a rectangular box (pp, ff
-/// between two walls, fs or sf where one side is open) and the columns vx, vy, vz, mux, muy, muz (a
-/// unit vector) or a quaternion w, i, j, k, omegax, omegay, omegaz or angmomx, angmomy, angmomz,
-/// and one set of positions: x, y, z; scaled xs, ys, zs; unwrapped xu, yu, zu; or both, xsu, ysu,
-/// zsu. id, ix, iy, iz, diameter (with a column length: that of rods; else the length of needles),
-/// mass, k and fx, fy, fz are optional; gravity is what gives all needles the same acceleration.
-/// Numbers are not changed, except that scaled positions are multiplied by the edges, unwrapped
-/// ones are wrapped into the box and counted in the images, and what is rounded is projected as
-/// NeedleReader says. Throws IoError if the file cannot be read, and InputError, "PATH: line N:
-/// reason".
+/// Reads a frame, counted from 0, or the last one of a dump in text with a box that is rectangular
+/// or has a tilt xy (pp, ff between two walls, fs or sf where one side is open) and the columns vx,
+/// vy, vz, mux, muy, muz (a unit vector) or a quaternion w, i, j, k, omegax, omegay, omegaz or
+/// angmomx, angmomy, angmomz, and one set of positions: x, y, z; scaled xs, ys, zs; unwrapped xu,
+/// yu, zu; or both, xsu, ysu, zsu. id, ix, iy, iz, diameter (with a column length: that of rods;
+/// else the length of needles), mass, k and fx, fy, fz are optional; gravity is what gives all
+/// needles the same acceleration. Numbers are not changed, except that scaled positions are
+/// multiplied by the edges, unwrapped ones are wrapped into the box and counted in the images, and
+/// what is rounded is projected as NeedleReader says. Throws IoError if the file cannot be read,
+/// and InputError, "PATH: line N: reason".
 Configuration read_lammps_dump(const std::string& path, std::optional<std::size_t> wanted = {});
 /// Reads a data file with `Atoms # hybrid sphere dipole` and `Velocities`. Length, mass, k, epsilon
 /// and beta are taken from the first line, where write_lammps_data() writes them.

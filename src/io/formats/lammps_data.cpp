@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "needlework/error.h"
+#include "src/box/tilt.h"
 #include "src/io/decimal.h"
 #include "src/io/formats/bounds.h"
 #include "src/io/formats/columns.h"
@@ -60,6 +61,7 @@ class DataReader {
   std::string path_;
   std::int64_t count_ = -1;
   std::array<double, 3> lower_{};
+  double tilt_ = 0;
   std::optional<std::array<double, 3>> edges_;  // where the bounds are beyond them
   std::vector<Row> atoms_;
   std::unordered_map<std::string_view, Row> velocities_;  // by id
@@ -98,6 +100,7 @@ Configuration DataReader::read() {
   const bool with_images = !atoms_.empty() && atoms_[0].fields.size() > atom_columns;
   Columns columns = columns_of(with_images);
   columns.lower = lower_;
+  columns.tilt = tilt_;
   NeedleReader needles(columns, configuration_);
   for (Row& row : atoms_) {
     const auto velocity = velocities_.find(row.fields[0]);
@@ -129,6 +132,7 @@ void DataReader::read_title() {
     const std::string_view name = word.substr(0, equals), value = word.substr(equals + 1);
     if (name == "edges") edges_ = read_edges(value, lines_.row());
     set_material(configuration_.material, name, value, lines_.row());
+    set_flow(configuration_.state, name, value, lines_.row());
   }
 }
 
@@ -141,12 +145,10 @@ void DataReader::read_header_line() {
     if (count_ >= 0) row.reject("a second number of atoms: expected one");
     count_ = row.read_whole(0, "number of atoms", 0, most_needles);
   }
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (fields[i] != "xy") continue;  // of "XY XZ YZ xy xz yz"
-    for (std::size_t tilt = 0; tilt < i; ++tilt) {
-      if (row.read(tilt, "tilt") == 0) continue;
-      row.reject(fmt::format("tilt = {}: expected 0, a rectangular box", fields[tilt]));
-    }
+  if (const auto xy = std::ranges::find(fields, "xy"); xy != fields.end()) {
+    if (xy - fields.begin() != 3) row.reject("expected XY XZ YZ xy xz yz, three tilts");
+    tilt_ = row.read(0, "tilt xy");
+    require_no_other_tilt(row.read(1, "tilt xz"), row.read(2, "tilt yz"), row);
   }
   constexpr const char* upper[] = {"xhi", "yhi", "zhi"};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -216,11 +218,14 @@ class DataWriter : public FrameWriter {
     file_.print("LAMMPS data file of needles: {}", title_);
     if (!bounds.are_edges) file_.print(" edges={}", fmt::join(state.box, ","));
     if (frame.time) file_.print(" time={}", *frame.time);
+    file_.print("{}", text_of_flow(state));
     file_.print("\n\n{} atoms\n{} atom types\n\n", state.size(), all_.size());
     for (std::size_t axis = 0; axis < 3; ++axis) {
       file_.print("{} {} {}lo {}hi\n", bounds.low[axis], bounds.high[axis], "xyz"[axis],
                   "xyz"[axis]);
     }
+    if (const TiltedCell cell(state); cell.is_sheared())
+      file_.print("{} 0 0 xy xz yz\n", cell.xy());
     write_atoms(state);
     file_.print("\nVelocities\n\n");
     for (std::size_t i = 0; i < state.size(); ++i) {
@@ -239,15 +244,16 @@ class DataWriter : public FrameWriter {
       const double volume = std::numbers::pi / 6 * each.length * each.length * each.length;
       densities.push_back(each.mass / volume);
     }
+    const TiltedCell cell(state);
     file_.print("\nAtoms # {}\n\n", style);
     for (std::size_t i = 0; i < state.size(); ++i) {
-      const auto& r = state.position[i];
+      const auto r = cell.position(i);
       const auto& u = state.orientation[i];
       const std::size_t species = species_at(state, i);
       file_.print("{} {} {} {} {} {} {} 0 {} {} {}", std::int64_t{id_of(state, i)} + 1, species + 1,
                   r[0], r[1], r[2], all_.at(species).length, densities[species], u[0], u[1], u[2]);
       if (!state.image.empty()) {
-        file_.print(" {} {} {}", state.image[i][0], state.image[i][1], state.image[i][2]);
+        file_.print(" {}", fmt::join(cell.image(i), " "));
       }
       file_.print("\n");
     }

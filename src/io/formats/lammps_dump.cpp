@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 
+#include "src/box/tilt.h"
 #include "src/io/formats/bounds.h"
 #include "src/io/formats/columns.h"
 #include "src/io/formats/input_text.h"
@@ -123,23 +124,29 @@ class Gravity {
   bool is_same_ = true;
 };
 
-// Sets the edges and which axes are periodic, and returns the lower bounds. A box with the tilts
-// xy, xz and yz is rectangular if they are 0.
-std::array<double, 3> read_box(Lines& lines, Configuration& configuration) {
+struct Corner {
+  std::array<double, 3> lower{};
+  double tilt = 0;  // xy
+};
+
+// Sets the edges and which axes are periodic. The bounds of a tilted box are those of all that is
+// in it.
+Corner read_box(Lines& lines, Configuration& configuration) {
   State& state = configuration.state;
   const std::vector<std::string_view> words = lines.fields();
   const bool tilted = words.size() > 5 && words[3] == "xy" && words[4] == "xz" && words[5] == "yz";
   if (!is_rectangular(words, tilted ? 6 : 3)) {
-    lines.reject(fmt::format(
-        "{}: expected {} pp pp pp, a rectangular box, with ff along axes between two walls, fs or "
-        "sf where one side is open",
-        lines.line().substr(0, 60), begin_of_box));
+    lines.reject(
+        fmt::format("{}: expected {} pp pp pp, with ff along axes between two walls, fs or "
+                    "sf where one side is open",
+                    lines.line().substr(0, 60), begin_of_box));
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     state.periodic[axis] = words[(tilted ? 6 : 3) + axis] == "pp";
   }
   add_walls(std::span(words).last(3), configuration);
-  std::array<double, 3> lower{};
+  Corner corner;
+  std::array<double, 3> tilts{};  // xy, xz, yz
   for (std::size_t axis = 0; axis < 3; ++axis) {
     lines.advance("the bounds of the box");
     const Row& row = lines.row();
@@ -147,15 +154,16 @@ std::array<double, 3> read_box(Lines& lines, Configuration& configuration) {
       row.reject(tilted ? "expected the two bounds of the box and a tilt"
                         : "expected the two bounds of the box");
     }
-    lower[axis] = row.read(0, "lower bound");
-    const double edge = row.read(1, "upper bound") - lower[axis];
+    if (tilted) tilts[axis] = row.read(2, "tilt");
+    const double tilt = axis == 0 ? tilts[0] : 0;
+    corner.lower[axis] = row.read(0, "lower bound") - std::min(0.0, tilt);
+    const double edge = row.read(1, "upper bound") - std::max(0.0, tilt) - corner.lower[axis];
+    require_no_other_tilt(tilts[1], tilts[2], row);
     if (!(edge > 0)) row.reject(fmt::format("an edge of {}: expected one > 0", edge));
-    if (tilted && row.read(2, "tilt") != 0) {
-      row.reject(fmt::format("tilt = {}: expected 0, a rectangular box", row.fields[2]));
-    }
     state.box[axis] = edge;
   }
-  return lower;
+  corner.tilt = tilts[0];
+  return corner;
 }
 
 Columns read_columns(const Lines& lines) {
@@ -263,11 +271,16 @@ class DumpWriter : public FrameWriter {
   void add(const Frame& frame) override {
     const State& state = frame.state;
     const auto boundary = [&](std::size_t axis) { return lammps_boundary(state, material_, axis); };
-    const Bounds bounds = bounds_of(state, farthest_end(species_of(material_)));
-    file_.print("{}\n{}\nITEM: NUMBER OF ATOMS\n{}\n{} {} {} {}\n", begin_of_frame, frame.number,
-                state.size(), begin_of_box, boundary(0), boundary(1), boundary(2));
+    const TiltedCell cell(state);
+    Bounds bounds = bounds_of(state, farthest_end(species_of(material_)));
+    if (cell.is_sheared()) bounds.include(cell.xy(), state.box);
+    file_.print("{}\n{}\nITEM: NUMBER OF ATOMS\n{}\n{}{} {} {} {}\n", begin_of_frame, frame.number,
+                state.size(), begin_of_box, cell.is_sheared() ? " xy xz yz" : "", boundary(0),
+                boundary(1), boundary(2));
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      file_.print("{} {}\n", bounds.low[axis], bounds.high[axis]);
+      file_.print("{} {}", bounds.low[axis], bounds.high[axis]);
+      if (cell.is_sheared()) file_.print(" {}", axis == 0 ? cell.xy() : 0.0);
+      file_.print("\n");
     }
     const std::string edges = bounds.are_edges ? "" : fmt::format(" {}", fmt::join(state.box, " "));
     file_.print(
@@ -275,11 +288,11 @@ class DumpWriter : public FrameWriter {
         "quatk shapex shapey shapez{}{}\n",
         begin_of_atoms, names_, bounds.are_edges ? "" : " edgex edgey edgez");
     for (std::size_t i = 0; i < state.size(); ++i) {
-      const auto& r = state.position[i];
+      const auto r = cell.position(i);
       const auto& v = state.velocity[i];
       const auto& u = state.orientation[i];
       const auto& w = state.angular_velocity[i];
-      const auto image = state.image.empty() ? std::array<std::int32_t, 3>{} : state.image[i];
+      const auto image = cell.image(i);
       const auto q = quaternion_of(u);
       const std::size_t species = species_at(state, i);
       file_.print("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}{}{}\n",
@@ -319,11 +332,11 @@ Configuration read_lammps_dump(const std::string& path, std::optional<std::size_
   lines.advance(begin_of_frame);
   Configuration configuration;
   std::int64_t count = -1;
-  std::array<double, 3> lower{};
+  Corner corner;
   while (!lines.line().starts_with(begin_of_atoms)) {
     if (!lines.line().starts_with("ITEM: ")) lines.reject("expected ITEM: and a name");
     if (lines.line().starts_with(begin_of_box)) {
-      lower = read_box(lines, configuration);
+      corner = read_box(lines, configuration);
     } else {
       const bool is_count = lines.line().starts_with("ITEM: NUMBER OF ATOMS");
       lines.advance("a number");
@@ -337,7 +350,8 @@ Configuration read_lammps_dump(const std::string& path, std::optional<std::size_
     lines.reject(fmt::format("no box: expected {} before", begin_of_box));
   }
   Columns columns = read_columns(lines);
-  columns.lower = lower;
+  columns.lower = corner.lower;
+  columns.tilt = corner.tilt;
   NeedleReader needles(columns, configuration);
   needles.reserve(count, frame.bytes());
   const std::string expected = fmt::format("{} atoms", count);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "needlework/error.h"
-#include "src/box/box.h"
+#include "src/box/tilt.h"
 #include "src/box/vector.h"
 #include "src/io/formats/text_file.h"
 #include "src/io/formats/vtu.h"
@@ -44,7 +44,7 @@ void add_lines(VtuFile& file, const std::vector<Vector>& points) {
 }
 
 // The twelve edges, from corner 0 to the box's far corner.
-std::vector<Vector> outline(const Box& box) {
+std::vector<Vector> outline(const TiltedCell& box) {
   const auto edges = box.vectors();
   const auto corner_of = [&](const std::array<int, 3>& times) {
     Vector out{};
@@ -87,7 +87,7 @@ class PvdWriter : public FrameWriter {
   fs::path folder_;
   bool made_folder_ = false;
   std::vector<std::string> new_files_;
-  std::optional<std::pair<Vector, std::array<bool, 3>>> box_;  // of the last outline
+  std::optional<std::pair<std::array<Vector, 3>, std::array<bool, 3>>> box_;  // of the last outline
   std::string box_name_;
 };
 
@@ -159,7 +159,8 @@ void PvdWriter::add(const Frame& frame) {
   const double time = frame.time.value_or(static_cast<double>(frame.number));
   const std::string name = fmt::format("frame-{:05}.vtu", frame.number);
   write_needles(name, frame.state);
-  if (const auto box = std::pair(frame.state.box, frame.state.periodic); box_ != box) {
+  if (const auto box = std::pair(TiltedCell(frame.state).vectors(), frame.state.periodic);
+      box_ != box) {
     box_ = box;
     box_name_ = fmt::format("box-{:05}.vtu", frame.number);
     write_box(box_name_, frame.state);
@@ -194,7 +195,7 @@ void PvdWriter::write_needles(const std::string& name, const State& state) {
 }
 
 void PvdWriter::write_box(const std::string& name, const State& state) {
-  const std::vector<Vector> points = outline(box_of(state));
+  const std::vector<Vector> points = outline(TiltedCell(state));
   VtuFile file(file_of(name), force_);
   if (state.periodic != std::array{true, true, true}) {
     const std::array<int, 3> periodic{state.periodic[0], state.periodic[1], state.periodic[2]};

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "needlework/error.h"
-#include "src/box/box.h"
+#include "src/box/tilt.h"
 #include "src/io/decimal.h"
 #include "src/io/formats/columns.h"
 #include "src/io/formats/input_text.h"
@@ -32,20 +32,28 @@ std::string_view unquoted(std::string_view text) {
   return text;
 }
 
-void read_lattice(std::string_view text, const Lines& lines, State& state) {
+// Sets the edges, and returns the tilt xy.
+double read_lattice(std::string_view text, const Lines& lines, State& state) {
   const std::vector<std::string_view> words = words_of(text);
   if (words.size() != 9) {
     lines.reject(fmt::format("Lattice of {} numbers: expected 9", words.size()));
   }
+  std::array<double, 9> values{};
   for (std::size_t i = 0; i < 9; ++i) {
-    double value = 0;
-    const bool edge = i % 4 == 0;
-    if (read_decimal(words[i], value) != std::errc() || (edge ? !(value > 0) : value != 0)) {
+    const bool edge = i % 4 == 0, tilt = i == 3 || i > 5;  // xy, xz and yz
+    double& value = values[i];
+    if (read_decimal(words[i], value) != std::errc() ||
+        (edge ? !(value > 0) : !tilt && value != 0)) {
       lines.reject(fmt::format("Lattice with {} in row {}, column {}: expected {}", words[i], i / 3,
-                               i % 3, edge ? "an edge > 0" : "0: a rectangular box"));
+                               i % 3,
+                               edge   ? "an edge > 0"
+                               : tilt ? "a finite number"
+                                      : "0: a rectangular box, or one that is tilted along x"));
     }
     if (edge) state.box[i / 4] = value;
   }
+  require_no_other_tilt(values[6], values[7], lines.row());
+  return values[3];
 }
 
 // One letter for each axis: T, or F where the box is not periodic.
@@ -119,11 +127,13 @@ Columns read_comment(const Lines& lines, Configuration& configuration) {
     if (key == "Properties") properties = value;
     if (key == "pbc") configuration.state.periodic = read_pbc(value, lines);
     set_material(configuration.material, key, value, lines.row());
+    set_flow(configuration.state, key, value, lines.row());
   }
   if (lattice.empty()) lines.reject("Lattice is missing: expected a box");
   if (properties.empty()) lines.reject("Properties is missing: expected the names of the columns");
-  read_lattice(lattice, lines, configuration.state);
-  const Columns columns = read_properties(properties, lines);
+  const double tilt = read_lattice(lattice, lines, configuration.state);
+  Columns columns = read_properties(properties, lines);
+  columns.tilt = tilt;
   require_all_vectors(columns, xyz_names, lines.row());
   return columns;
 }
@@ -175,18 +185,20 @@ class XyzWriter : public FrameWriter {
 
   void add(const Frame& frame) override {
     const State& state = frame.state;
-    const auto [a, b, c] = box_of(state).vectors();
+    const TiltedCell cell(state);
+    const auto [a, b, c] = cell.vectors();
     file_.print(
         "{}\nLattice=\"{} {} {}\" Properties=species:S:1:pos:R:3:id:I:1:velo:R:3:"
         "director:R:3:angular_velocity:R:3:orientation:R:4:aspherical_shape:R:3{}",
         state.size(), fmt::join(a, " "), fmt::join(b, " "), fmt::join(c, " "),
         endings_.size() > 1 ? ":needle_species:I:1" : "");
     if (frame.time) file_.print(" Time={}", *frame.time);
+    file_.print("{}", text_of_flow(state));
     const auto letter = [&](std::size_t axis) { return state.periodic[axis] ? 'T' : 'F'; };
     file_.print(" pbc=\"{} {} {}\"{}{}\n", letter(0), letter(1), letter(2),
                 material_.empty() ? "" : " ", material_);
     for (std::size_t i = 0; i < state.size(); ++i) {
-      const auto& r = state.position[i];
+      const auto r = cell.position(i);
       const auto& v = state.velocity[i];
       const auto& u = state.orientation[i];
       const auto& w = state.angular_velocity[i];
