@@ -88,19 +88,19 @@ def draw_shear(table: Table) -> Figure:
     for (kind, large, epsilon), part in parts(table, "kind", "large", "epsilon"):
         if kind == SPHERES:
             continue
-        part, colour = _by_density(part), colours[epsilon]
+        colour = colours[epsilon]
         look = {"marker": "s" if kind == RODS else "o", "color": colour,
                 "mfc": "white" if large else colour}
         for panel, name in zip(axes, (*State._fields, "wave")):
             style.points(panel, part.density, part[name], part[f"{name}_error"], **look)
             if name == "wave":
-                panel.plot(part.density, part.wave_predicted, color=colour, linewidth=0.7)
+                panel.plot(part.density, part.wave_predicted, "_", color=colour, markersize=9)
             elif not large:
                 panel.plot([0.07, 0.25], np.repeat(part[f"{name}_limit"][0], 2), color=colour)
     for panel, name in zip(axes, (*LABELS, "longest wave / equipartition")):
         style.label(panel, "$n L^3$", name, legend=False,
-                    log="xy" if panel in (axes[0], axes[-1]) else "x")
-    _explain(axes[0], colours)
+                    log="xy" if panel in (axes[0], axes[3], axes[5]) else "x")
+    _explain(axes[5], colours)
     return figure
 
 
@@ -111,13 +111,8 @@ def _explain(panel: Axes, colours: dict[float, str]) -> None:
     grey = style.COLOURS[5]
     marks += [Line2D([], [], color=grey, linestyle="", marker=marker, mfc=fill, label=label)
               for marker, fill, label in (("o", grey, "needles"), ("o", "white", "larger box"),
-                                          ("s", grey, "rods, $L/D = 5$"))]
-    panel.legend(handles=marks, fontsize=7.5, ncols=2)
-
-
-def _by_density(part: Table) -> Table:
-    order = np.argsort(part.density)
-    return Table({name: column[order] for name, column in part.items()})
+                                          ("s", grey, "rods, $L/D = 5$"), ("_", grey, "predicted"))]
+    panel.legend(handles=marks, fontsize=7.5, loc="upper left")
 
 
 def _limit(kind: int, epsilon: float) -> State:
