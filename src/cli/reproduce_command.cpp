@@ -22,7 +22,7 @@ const std::vector<Group>& groups() {
       {"why they differ", {"cells", "tc-dilute", "tc-dense", "sliding-dilute", "sliding-dense"}},
       {"why theory is off",
        {"boltzmann-relaxation", "boltzmann-cooling", "boltzmann-ratio", "encounters"}},
-      {"driven", {"kicked", "vibrated"}},
+      {"driven", {"kicked", "vibrated", "shear"}},
       {"between walls", {"walls", "sedimentation", "settling"}},
       {"rods", {"rods", "rods-flow", "nematic"}},
       {"sliding contact", {"sliding"}},

@@ -20,6 +20,7 @@ LOW_RATIO = {**LOW, **LOW_TC, "needles.k": [2, 6], "collisions.epsilon": [0.8]}
 RELAXING = {**FEW, "needles.k": [2, 6], "until.time": 1000, "until.collisions_per_needle": 13,
             "output.series_every": 0.5, "output.observables": [["velocity_moments"]]}
 SLIDING = {**FEW, "needles.box": 4, "collisions.epsilon": [0.8, 0.5], "until.energy_ratio": 1e-2}
+SHEAR = {"needles.count": 16, "needles.box": 2.5, "until.time": 8}
 LIQUID = {**FEW, "until.time": 3, "output.series_every": 0.02}
 
 
@@ -56,6 +57,12 @@ GRIDS = {
     "vibrated-small": ("vibrated", {"needles.count": 20, "needles.box": [[3, 3, 6]],
                                     "collisions.epsilon": [0.8],
                                     "walls.z-low.motion.amplitude": 0.01, "until.time": 10}),
+    "shear-thin": ("shear", {**SHEAR, "needles.box": 5.4288, "collisions.epsilon": [0.9]}),
+    "shear": ("shear", {**SHEAR, "collisions.epsilon": [0.9, 0.7]}),
+    "shear-dense": ("shear", {**SHEAR, "needles.count": 40, "collisions.epsilon": [0.9]}),
+    "shear-large": ("shear", {**SHEAR, "needles.count": 50, "needles.box": 3}),
+    "shear-rods": ("shear", {**SHEAR, "needles.diameter": 0.2}),
+    "shear-spheres": ("shear-spheres", {"until.time": 2}),
     "walls": ("walls", {"needles.count": 30, "needles.box": [[3, 3, 2], [3, 3, 2.5]],
                         "collisions.epsilon": [1, 0.8], "until.energy_ratio": 0.05,
                         "until.time": 100}),

@@ -1,7 +1,7 @@
 """All figures, those of the paper first."""
 
 from . import (alignment, boltzmann, causes, confined, dense, dilute, driving, flow, fluctuations,
-               large, liquid, nematic, ratio, relaxation, rods, sliding)
+               large, liquid, nematic, ratio, relaxation, rods, shear, sliding)
 from .figure import Figure
 
 FIGURES = {figure.name: figure for figure in (
@@ -67,6 +67,8 @@ FIGURES = {figure.name: figure for figure in (
            driving.measure_kicked, driving.draw_kicked),
     Figure("vibrated", "Beyond the paper: a vibrated layer in its steady state", ("vibrated", "vibrated-small"),
            driving.measure_vibrated, driving.draw_vibrated),
+    Figure("shear", "Beyond the paper: uniform shear", tuple(shear.SETS),
+           shear.measure_shear, shear.draw_shear),
     Figure("walls", "Beyond the paper: a gas that cools between walls", ("walls",),
            confined.measure_walls, confined.draw_walls),
     Figure("sedimentation", "Beyond the paper: elastic needles above a floor", ("sedimentation",),

@@ -55,7 +55,8 @@ class Conditions:
         needles, initial = scene["needles"], scene.get("initial", {})
         collisions = scene.get("collisions", {})
         grid = scene.get("output", {}).get("grid")
-        return cls(count=int(needles["count"]),
+        bodies = scene.get("species", [needles])
+        return cls(count=sum(int(each["count"]) for each in bodies),
                    box=np.broadcast_to(np.asarray(needles["box"], dtype=float), 3).copy(),
                    k=float(needles.get("k", 6.0)),
                    epsilon=float(collisions.get("epsilon", 1.0)),

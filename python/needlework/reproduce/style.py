@@ -48,9 +48,10 @@ def panels(title: str, count: int, *, columns: int | None = None, width: float =
     return figure, list(axes[:count])
 
 
-def points(axes: Axes, x: Any, y: Any, error: Any = None, **look: Any) -> None:
+def points(axes: Axes, x: Any, y: Any, error: Any = None, *, marker: str = "o",
+           **look: Any) -> None:
     """Measured points, with their standard errors where they are given."""
-    axes.errorbar(x, y, error, fmt="o", capsize=1.5, elinewidth=0.8, **look)
+    axes.errorbar(x, y, error, fmt=marker, capsize=1.5, elinewidth=0.8, **look)
 
 
 def band(axes: Axes, x: Any, y: Any, error: Any, **look: Any) -> None:
