@@ -183,8 +183,10 @@ Shift EventProcessor<S, M>::replace_record(Needle i, Renew&& renew) {
   if constexpr (M::has_effects) {
     if (run_.effects.stress) {
       const FlightCarries over = flight_carries(gas_, i, now());
+      const double way = gas_.peculiar_x ? gas_.way_beside_flow(i, now()) : 0;
       const Shift wraps = predictor_.replace(i, renew);
       run_.count(over, tally_);
+      if (gas_.peculiar_x) (*gas_.peculiar_x)[i] += way;
       return wraps;
     }
   }

@@ -23,6 +23,7 @@ void copy_state(const Gas& gas, Time at, kernels::Isa isa, const std::vector<Nee
   out.shear_rate = gas.shear ? gas.shear->rate() : 0;
   out.resize(gas.size());
   out.peculiar_velocity.resize(gas.shear ? gas.size() : 0);
+  out.peculiar_x.resize(gas.peculiar_x ? gas.size() : 0);
   out.species.resize(gas.composition.is_mixture() ? gas.size() : 0);
   // Few enough for the columns to stay in the first-level cache.
   constexpr std::size_t at_once = 64;
@@ -59,6 +60,7 @@ void copy_state(const Gas& gas, Time at, kernels::Isa isa, const std::vector<Nee
         const Vec3d centre = gas.motion(gas.records[i]).centre(elapsed);
         out.peculiar_velocity[row] = to_array(velocity - gas.flow_at(centre));
       }
+      if (gas.peculiar_x) out.peculiar_x[row] = (*gas.peculiar_x)[i] + gas.way_beside_flow(i, at);
       out.orientation[row] = to_array(just_now ? flight.u : normalised(flights.director(n)));
       out.angular_velocity[row] = to_array(flight.w);
       if (!slides) continue;

@@ -99,6 +99,11 @@ Run::Run(const Scene& scene)
 }
 
 void Run::add_effects(const Scene& scene) {
+  const auto is_observed = [&](std::string_view name) {
+    return std::ranges::find(scene.output.observables, name) != scene.output.observables.end();
+  };
+  if (scene.shear && std::ranges::any_of(path_observable_names, is_observed))
+    gas.peculiar_x = &gas.columns.add<double>("peculiar x", 0);
   if (has_contact_time(scene)) contact_time_rule.emplace(gas);
   if (effects.sliding) {
     sliding.emplace(gas, Sliding::Parameters{.below = scene.collisions.sliding_below,
@@ -350,6 +355,7 @@ ReplacedRecords Run::replace_velocities(const std::function<Vec3d(Needle)>& velo
     if (record.is_sliding()) sliding->let_go(i, record, now);
     const kernels::BodyState present = gas.present(i, now);
     if (effects.stress) count(flight_carries(gas, i, now), tally);
+    if (gas.peculiar_x) (*gas.peculiar_x)[i] += gas.way_beside_flow(i, now);
     entry.wraps =
         renew_record(gas, i, now, {present.r, velocity(i), present.u, angular_velocity(i)},
                      gas.body(i).extent());

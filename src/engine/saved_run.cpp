@@ -78,6 +78,7 @@ std::vector<double> physics_of(const Run& run, const Scene& scene) {
   };
   if (run.effects.stress) add({1});
   if (run.gas.shear) add({run.gas.shear->velocity()});
+  if (run.gas.peculiar_x) add({1});
   if (run.gas.falls) add({run.gas.gravity.x, run.gas.gravity.y, run.gas.gravity.z});
   for (const auto& source : run.sources) add(source->parameters());
   if (run.kicks) add(run.kicks->parameters());

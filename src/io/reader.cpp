@@ -27,10 +27,10 @@ static void transfer(Archive& archive, Bodies& bodies) {
 }
 
 static void transfer(Archive& archive, State& state) {
-  auto& [box, periodic, slide, shear_rate, position, velocity, peculiar_velocity, orientation,
-         angular_velocity, image, id, species, bodies] = state;
-  archive(box, periodic, slide, shear_rate, position, velocity, peculiar_velocity, orientation,
-          angular_velocity, image, id, species, bodies);
+  auto& [box, periodic, slide, shear_rate, position, velocity, peculiar_velocity, peculiar_x,
+         orientation, angular_velocity, image, id, species, bodies] = state;
+  archive(box, periodic, slide, shear_rate, position, velocity, peculiar_velocity, peculiar_x,
+          orientation, angular_velocity, image, id, species, bodies);
 }
 
 }  // namespace needlework

@@ -5,8 +5,16 @@
 //   along_axes      histograms of Q with e along x, y and z
 //   order_tensor    mean of (3 u u - 1) / 2, whose largest eigenvalue is the nematic order
 //
+// and in a flow along x that grows with y
+//
+//   flow_angle      of the director of the tensor from x in the plane of x and y,
+//                   atan2(2 Q_xy, Q_xx - Q_yy) / 2
+//   spin_over_rate  mean angular velocity about z over the rate of shear
+//
 // For random directors Q has the density 1 / (2 sqrt(3 (Q + 1))).
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "src/observe/histogram.h"
 #include "src/observe/order_tensor.h"
@@ -17,10 +25,13 @@ namespace {
 
 class Alignment : public Observable {
  public:
+  explicit Alignment(const GasSetting& gas)
+      : is_sheared_(gas.is_sheared), shear_rate_(gas.shear_rate) {}
+
   std::vector<SeriesField> fields() const override {
     using enum SeriesField::Kind;
     const std::size_t bins = along_velocity_.counts().size();
-    return {
+    std::vector<SeriesField> out{
         {"along_velocity",
          "Number of needles by Q = 3 cos^2 - 1 of the angle between orientation and velocity",
          unit::none,
@@ -42,6 +53,16 @@ class Alignment : public Observable {
          constant,
          along_velocity_.borders()},
     };
+    if (is_sheared_) {
+      out.push_back({"flow_angle",
+                     "In a flow, angle of the director of this tensor from it in the plane of x "
+                     "and y, atan2(2 Q_xy, Q_xx - Q_yy) / 2",
+                     unit::angle});
+      out.push_back({"spin_over_rate",
+                     "In a flow, mean angular velocity about z over the rate of shear",
+                     unit::none});
+    }
+    return out;
   }
 
   void sample(const Snapshot& now, Row& row) override {
@@ -59,6 +80,12 @@ class Alignment : public Observable {
     row.put_all(along_velocity_.counts());
     for (const Histogram& histogram : along_axes_) row.put_all(histogram.counts());
     order.put(row);
+    if (!is_sheared_) return;
+    row.put(std::atan2(2 * order.at(0, 1), order.at(0, 0) - order.at(1, 1)) / 2);
+    double spin = 0;
+    for (const Vector& w : now.state.angular_velocity) spin += w[2];
+    const double over = shear_rate_ * static_cast<double>(now.state.size());
+    row.put(over != 0 ? spin / over : std::numeric_limits<double>::quiet_NaN());
   }
 
  private:
@@ -67,6 +94,8 @@ class Alignment : public Observable {
     histogram.add(3 * std::min(cosine_squared, 1.0) - 1);
   }
 
+  bool is_sheared_;
+  double shear_rate_;
   Histogram along_velocity_{-1, 2, 60};
   std::array<Histogram, 3> along_axes_{Histogram{-1, 2, 60}, Histogram{-1, 2, 60},
                                        Histogram{-1, 2, 60}};
@@ -74,6 +103,6 @@ class Alignment : public Observable {
 
 }  // namespace
 
-ObservablePointer make_alignment(const GasSetting&) { return std::make_unique<Alignment>(); }
+ObservablePointer make_alignment(const GasSetting& gas) { return std::make_unique<Alignment>(gas); }
 
 }  // namespace needlework::observe

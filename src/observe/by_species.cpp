@@ -26,7 +26,10 @@ void SnapshotsBySpecies::take(const Snapshot& all) {
     Part& part = parts_[n];
     part.state.box = state.box;
     part.state.periodic = state.periodic;
+    part.state.slide = state.slide;
+    part.state.shear_rate = state.shear_rate;
     part.state.resize(0);
+    part.state.peculiar_x.clear();
     const SpeciesTotals& sums = all.species.totals[n];
     part.totals = {.time = all.totals.time, .t_tr = sums.t_tr, .t_rot = sums.t_rot};
     part.totals.energy = 1.5 * sums.t_tr + sums.t_rot;
@@ -39,6 +42,7 @@ void SnapshotsBySpecies::take(const Snapshot& all) {
     to.velocity.push_back(state.velocity[i]);
     to.orientation.push_back(state.orientation[i]);
     to.angular_velocity.push_back(state.angular_velocity[i]);
+    if (!state.peculiar_x.empty()) to.peculiar_x.push_back(state.peculiar_x[i]);
     if (!state.image.empty()) to.image.push_back(state.image[i]);
     if (!state.id.empty()) to.id.push_back(state.id[i]);
   }

@@ -11,7 +11,7 @@
 
 namespace needlework::observe {
 
-/// Centres followed across the boundaries of the box.
+/// Centres followed across the boundaries of the box; in a flow along x, beside it.
 inline std::vector<Vector> unwrapped(const State& state) {
   const Box box = box_of(state);
   std::vector<Vector> out = state.position;
@@ -19,6 +19,7 @@ inline std::vector<Vector> unwrapped(const State& state) {
     const Vec3d way = box.image(state.image[i]).place;
     out[i] = {out[i][0] + way.x, out[i][1] + way.y, out[i][2] + way.z};
   }
+  for (std::size_t i = 0; i < state.peculiar_x.size(); ++i) out[i][0] = state.peculiar_x[i];
   return out;
 }
 

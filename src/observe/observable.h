@@ -53,6 +53,7 @@ struct GasSetting {
   Box box;
   double length = 1, mass = 1;  ///< of several species the longest length, and no mass
   double inertia = 1;           ///< I = m L^2 / (2 k)
+  bool is_sheared = false;      ///< rows of boxes slide, if only by what they have at the start
   double shear_rate = 0;        ///< of the uniform flow [1 / time]
   std::array<int, 3> cells{1, 1, 1};
   std::vector<Slabs> wall_slabs;  ///< across each axis with walls

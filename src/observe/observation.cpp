@@ -17,6 +17,7 @@ GasSetting setting_of(const Scene& scene) {
   GasSetting gas;
   gas.count = gas.all = scene.needles.count;
   gas.box = box_of(scene);
+  gas.is_sheared = scene.shear.has_value();
   gas.shear_rate = scene.shear ? scene.shear->rate : 0;
   gas.cells = scene.output.grid.value_or(default_cells(gas.box.edges(), gas.count));
   gas.wall_slabs = wall_slabs(scene);

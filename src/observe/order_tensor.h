@@ -21,8 +21,10 @@ class OrderTensor {
   /// Puts its nine components; NaN without directors.
   void put(Row& row) const {
     for (std::size_t a = 0; a < 3; ++a)
-      for (std::size_t b = 0; b < 3; ++b)
-        row.put(1.5 * squares_[a][b] / count_ - (a == b ? 0.5 : 0));
+      for (std::size_t b = 0; b < 3; ++b) row.put(at(a, b));
+  }
+  double at(std::size_t a, std::size_t b) const {
+    return 1.5 * squares_[a][b] / count_ - (a == b ? 0.5 : 0);
   }
 
  private:

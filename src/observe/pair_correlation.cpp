@@ -102,9 +102,14 @@ class PairCorrelation : public Observable {
 
   void visit_near_pairs(const State& state) {
     const Box box = box_of(state);
+    // Where rows of boxes slide, cells have edges along the vectors of the present lattice, so that
+    // neighbours are the same in all rows. Cells of a given volume are thinner along x for that.
+    const double slide = box.vectors()[1][0];
+    const double slope = (slide - box.edge(0) * std::nearbyint(slide / box.edge(0))) / box.edge(1);
+    const Vector apart{box.edge(0) / std::hypot(1, slope), box.edge(1), box.edge(2)};
     std::array<int, 3> extent{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      extent[axis] = static_cast<int>(std::min(box.edge(axis) / reach_, 100.0));
+      extent[axis] = static_cast<int>(std::min(apart[axis] / reach_, 100.0));
       // With two cells along an axis, one would be on both sides of the other.
       if (extent[axis] < 3) extent[axis] = 1;
     }
@@ -112,8 +117,12 @@ class PairCorrelation : public Observable {
     std::vector<Cell> cells(grid.size());
     for (std::size_t i = 0; i < state.size(); ++i) {
       const std::size_t species = gas_.composition.is_mixture() ? state.species[i] : 0;
-      cells[grid.cell_of(state.position[i])].push_back(
-          {state.position[i], state.orientation[i], species});
+      Vector place = state.position[i];
+      if (slope != 0) {
+        const double x = place[0] - slope * place[1];
+        place[0] = x - box.edge(0) * std::floor(x / box.edge(0));
+      }
+      cells[grid.cell_of(place)].push_back({state.position[i], state.orientation[i], species});
     }
     for (const Cell& cell : cells) add_pairs_within(box, cell);
     if (cells.size() == 1) return;

@@ -1,8 +1,11 @@
 // The structure factor S(k) = |sum over needles of exp(i k . r)|^2 / N for the wave vectors
 // k = 2 pi n / edge, n = 1 to 16, along each axis of the box. For independent positions it is
 // exponentially distributed with mean 1. An n-fold density wave along an axis is a peak of the
-// order of N there. With several species, of each two of them S_ab(k) = Re(rho_a rho_b*) /
-// sqrt(N_a N_b), rho_a the sum over the needles of a; independent species have mean 0 for a and b.
+// order of N there. Where rows of boxes slide by D along x, wave vectors are those of the lattice
+// of the instant: along x, of those with k_x = 2 pi n / edge that with the least part along y, k_y
+// = 2 pi (m - n D / edge) / (edge along y) for an integer m. With several species, of each two of
+// them S_ab(k) = Re(rho_a rho_b*) / sqrt(N_a N_b), rho_a the sum over the needles of a; independent
+// species have mean 0 for a and b.
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -24,7 +27,7 @@ class StructureFactor : public Observable {
       for (std::size_t n = 1; n <= waves; ++n) {
         wave_numbers.push_back(2 * std::numbers::pi * double(n) / edge);
       }
-    return {
+    std::vector<SeriesField> out{
         {"s", "Structure factor at wave vectors along each axis", unit::none,
          by_pair(gas_.composition, {{"3", 3}, {"waves", waves}})},
         {"k",
@@ -34,17 +37,28 @@ class StructureFactor : public Observable {
          SeriesField::Kind::constant,
          wave_numbers},
     };
+    if (gas_.is_sheared) {
+      out.push_back({"k_y",
+                     "In a flow, part along y of the wave vectors along x",
+                     unit::wave_number,
+                     {{"waves", waves}}});
+    }
+    return out;
   }
 
   void sample(const Snapshot& now, Row& row) override {
     using Complex = std::complex<double>;
     using Sums = std::array<std::array<Complex, waves>, 3>;
     const Composition& composition = gas_.composition;
+    const Tilted tilted(box_of(now.state));
     std::vector<Sums> by_species(composition.size());
     for (std::size_t i = 0; i < now.state.size(); ++i) {
       const Vector& r = now.state.position[i];
       Sums& sums = by_species[composition.is_mixture() ? now.state.species[i] : 0];
-      for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (gas_.is_sheared) {
+        for (std::size_t n = 0; n < waves; ++n) sums[0][n] += std::polar(1.0, tilted.phase(n, r));
+      }
+      for (std::size_t axis = gas_.is_sheared ? 1 : 0; axis < 3; ++axis) {
         const double phase = 2 * std::numbers::pi * (r[axis] / gas_.box.edge(axis));
         const Complex first(std::cos(phase), std::sin(phase));
         Complex wave = first;
@@ -70,9 +84,27 @@ class StructureFactor : public Observable {
         }
       }
     }
+    if (gas_.is_sheared) row.put_all(tilted.along_y);
   }
 
  private:
+  // The wave vectors along x of a lattice whose rows have slid.
+  struct Tilted {
+    explicit Tilted(const Box& box) {
+      const double slide = box.vectors()[1][0] / box.edge(0);
+      for (std::size_t n = 0; n < waves; ++n) {
+        const double boxes = double(n + 1) * slide;
+        along_x[n] = 2 * std::numbers::pi * double(n + 1) / box.edge(0);
+        along_y[n] = 2 * std::numbers::pi * (std::nearbyint(boxes) - boxes) / box.edge(1);
+      }
+    }
+    double phase(std::size_t n, const Vector& r) const {
+      return along_x[n] * r[0] + along_y[n] * r[1];
+    }
+
+    std::array<double, waves> along_x, along_y;
+  };
+
   GasSetting gas_;
 };
 

@@ -29,12 +29,14 @@ struct Gas {
   LargeArray<Shift> images;  ///< total number of boxes by which each centre has been wrapped
   std::unique_ptr<FurtherTouches> further_touches = std::make_unique<FurtherTouches>();
   Clock clock;
-  Box box;                         ///< its edges, and which axes are periodic: those without walls
-  std::optional<Shear> shear;      ///< if rows of boxes slide
-  Vec3d gravity{};                 ///< acceleration of all needles [L / time^2]
-  bool falls = false;              ///< gravity is not 0
-  Vec3d pull{};                    ///< gravity along periodic axes, where it has no potential
-  Columns columns;                 ///< what effects keep for each needle
+  Box box;                     ///< its edges, and which axes are periodic: those without walls
+  std::optional<Shear> shear;  ///< if rows of boxes slide
+  Vec3d gravity{};             ///< acceleration of all needles [L / time^2]
+  bool falls = false;          ///< gravity is not 0
+  Vec3d pull{};                ///< gravity along periodic axes, where it has no potential
+  Columns columns;             ///< what effects keep for each needle
+  /// State::peculiar_x up to the time of each record; null where nobody observes it. [L]
+  Column<double>* peculiar_x = nullptr;
   Composition composition;         ///< indexed by Record::species
   double longest = 1;              ///< largest extent of a body, with departures from flights [L]
   std::unique_ptr<Slides> slides;  ///< null where needles do not slide on each other
@@ -59,6 +61,12 @@ struct Gas {
   }
   /// The velocity of the uniform flow at a place. [L / time]
   Vec3d flow_at(const Vec3d& centre) const { return {shear ? shear->rate() * centre.y : 0, 0, 0}; }
+  /// The integral of needle i's velocity beside the flow, along x, from its record to `now`. [L]
+  double way_beside_flow(Needle i, Time now) const {
+    const double elapsed = clock.difference(now, records[i].time);
+    const Vec3d c = records[i].flight.v - flow_at(records[i].flight.r);
+    return elapsed * (c.x - 0.5 * elapsed * (shear->rate() * c.y));
+  }
   /// Number density [L^-3].
   double density() const { return static_cast<double>(size()) / box.volume(); }
 

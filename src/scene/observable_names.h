@@ -29,9 +29,9 @@ inline constexpr std::array<std::string_view, 15> observable_names = {
     "alignment",        "velocity_moments", "temperature_by_axis", "pair_correlation",
     "structure_factor", "displacement",     "time_correlation",    "collision_statistics",
     "wall_profiles",    "centre_of_mass",   "pressure_tensor"};
-/// Those that are wrong where rows of boxes slide.
-inline constexpr std::array<std::string_view, 4> rectangular_observable_names = {
-    "pair_correlation", "structure_factor", "displacement", "time_correlation"};
+/// Those that follow needles, in a flow beside it.
+inline constexpr std::array<std::string_view, 2> path_observable_names = {"displacement",
+                                                                          "time_correlation"};
 /// For which sums are kept from the start of a run. Sheared scenes always have it.
 inline constexpr std::string_view pressure_tensor_name = observable_names.back();
 

@@ -255,6 +255,75 @@ TEST(Shear, BalancesToRounding) {
   }
 }
 
+// The times of all events that change a velocity.
+std::vector<double> times_of_changes(const Scene& scene, double end) {
+  Simulation simulation(scene);
+  std::vector<double> out;
+  simulation.on_happening([&](const Happening& each) { out.push_back(each.event.time); });
+  simulation.on_kick([&] { out.push_back(simulation.time()); });
+  simulation.advance(until_time(end));
+  return out;
+}
+
+// Between events the velocity beside the flow changes evenly, so that states between them say how
+// far each needle goes, whatever the engine does in between.
+TEST(Shear, FollowsNeedlesBesideTheFlow) {
+  Scene driven = sheared(20, 4, 1, 0.7);
+  driven.walls = {{.axis = "z", .side = "both", .temperature = 1}};
+  driven.driving.andersen = Scene::Andersen{.rate = 0.5, .temperature = 1};
+  driven.driving.kicks = Scene::Kicks{.every = 0.3, .translational = 0.5, .rotational = 0.5};
+  for (Scene scene : {sheared(20, 3, 1.5, 2.5), of_spheres(sheared(20, 4, -2)), driven}) {
+    EXPECT_TRUE(Simulation(scene).copy().peculiar_x.empty());
+    scene.output.observables = {"displacement"};
+    const double end = 5, rate = scene.shear->rate;
+    const std::vector<double> changes = times_of_changes(scene, end);
+    ASSERT_GT(changes.size(), 60u);
+    Simulation simulation(scene);
+    State before = simulation.copy();
+    std::vector<double> way(before.size());
+    EXPECT_EQ(before.peculiar_x, way);
+    double then = 0;
+    for (std::size_t n = 0; n < changes.size(); ++n) {
+      const double change = changes[n];
+      const double now = (change + (n + 1 < changes.size() ? changes[n + 1] : end)) / 2;
+      simulation.advance(until_time(now));
+      const State after = simulation.copy();
+      for (std::size_t i = 0; i < way.size(); ++i) {
+        const auto &c0 = before.peculiar_velocity[i], &c1 = after.peculiar_velocity[i];
+        const double t0 = change - then, t1 = now - change;
+        way[i] += c0[0] * t0 - rate * c0[1] * t0 * t0 / 2;
+        way[i] += c1[0] * t1 + rate * c1[1] * t1 * t1 / 2;
+        ASSERT_NEAR(after.peculiar_x[i], way[i], 1e-12 * (1 + double(n))) << n << ' ' << i;
+      }
+      before = after;
+      then = now;
+    }
+  }
+}
+
+// As their momentum along x stays 0, so does the sum of their ways.
+TEST(Shear, FollowsThemFromCheckpointsAndOnThreads) {
+  Scene scene = sheared(2000, 8, 1.5, 2.5);
+  scene.output.observables = {"time_correlation"};
+  Simulation whole(scene), half(scene);
+  half.advance(until_time(0.7));
+  whole.advance(until_time(1.5));
+  const std::vector<double> way = whole.copy().peculiar_x;
+  Simulation rest(scene, half.checkpoint());
+  rest.advance(until_time(1.5));
+  EXPECT_EQ(rest.copy().peculiar_x, way);
+  scene.engine.threads = 2;
+  Simulation threads(scene);
+  threads.advance(until_time(1.5));
+  EXPECT_EQ(threads.copy().peculiar_x, way);
+  double sum = 0, largest = 0;
+  for (const double each : way) sum += each, largest = std::max(largest, std::abs(each));
+  EXPECT_NEAR(sum, 0, 1e-10);
+  EXPECT_GT(largest, 1);
+  scene.output.observables.clear();
+  EXPECT_THROW(Simulation(scene, half.checkpoint()), InputError);
+}
+
 // The first collisions of two runs are the same, but for what a map of the state rounds. Needles
 // that collide fly apart exponentially, by a decade or more in ten collisions of these.
 void expect_same_pairs(const std::vector<Collision>& a, const std::vector<Collision>& b,

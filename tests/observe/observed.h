@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "src/observe/observation.h"
@@ -78,6 +79,7 @@ inline SpeciesSums no_sums(const Scene& scene) {
   sums.energy.walls.resize(sums.walls.size());
   if (scene.driving.andersen) sums.energy.thermostat = 0;
   if (scene.driving.kicks) sums.energy.kicks = 0;
+  if (scene.shear) sums.energy.shear = 0;
   return sums;
 }
 
@@ -85,7 +87,10 @@ inline SpeciesSums no_sums(const Scene& scene) {
 class Observed {
  public:
   explicit Observed(const Scene& scene)
-      : inertia_(setting_of(scene).inertia), sums_(no_sums(scene)), all_(scene) {}
+      : inertia_(setting_of(scene).inertia),
+        name_(scene.output.observables.front()),
+        sums_(no_sums(scene)),
+        all_(scene) {}
 
   Values sample(const State& state, double time = 0) {
     return sample(state, totals_of(state, inertia_, time));
@@ -95,16 +100,18 @@ class Observed {
     Values out;
     auto next = row.begin();
     for (const SeriesGroup& group : all_.groups()) {
-      out.clear();  // the observable is the last, behind what every file of such a gas has
+      Values fields;
       for (const SeriesField& field : group.fields) {
         if (field.kind == SeriesField::Kind::constant) {
           EXPECT_EQ(field.values.size(), field.width()) << field.name;
-          out[field.name] = field.values;
+          fields[field.name] = field.values;
         } else {
-          out[field.name].assign(next, next + static_cast<std::ptrdiff_t>(field.width()));
+          fields[field.name].assign(next, next + static_cast<std::ptrdiff_t>(field.width()));
           next += static_cast<std::ptrdiff_t>(field.width());
         }
       }
+      // Beside it is what every file of such a gas has.
+      if (group.name == name_) out = std::move(fields);
     }
     return out;
   }
@@ -112,6 +119,7 @@ class Observed {
 
  private:
   double inertia_;
+  std::string name_;
   SpeciesSums sums_;
   Observation all_;
 };

@@ -1,10 +1,6 @@
 // [shear]: uniform shear.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
-
-#include "src/scene/observable_names.h"
 #include "src/scene/read_value.h"
 #include "src/scene/sections/sections.h"
 
@@ -50,21 +46,6 @@ std::optional<Violation> contacts_slide(const Scene& scene) {
                  "flow; the t_c rule is, collisions.tc or tc_relative");
 }
 
-// Those that follow paths, or compare places across the edges.
-std::optional<Violation> observables_know_no_rows(const Scene& scene) {
-  if (!scene.shear) return {};
-  for (const std::string& name : scene.output.observables) {
-    if (std::ranges::find(rectangular_observable_names, name) == rectangular_observable_names.end())
-      continue;
-    return Violation{.key = "output.observables",
-                     .value = in_quotes(name),
-                     .reason = fmt::format("expected none of {} beside [shear]: they are for boxes "
-                                           "whose images stay where they are",
-                                           fmt::join(rectangular_observable_names, ", "))};
-  }
-  return {};
-}
-
 std::optional<Violation> offset_is_beyond_the_edge(const Scene& scene) {
   if (!scene.shear || scene.shear->offset < scene.needles.box[0] || scene.shear->offset == 0)
     return {};
@@ -95,7 +76,6 @@ SceneSection shear_section() {
       .rules = {{Aspect::effects, walls_stop_the_flow},
                 {Aspect::effects, gravity_drives_the_flow},
                 {Aspect::effects, contacts_slide},
-                {Aspect::output, observables_know_no_rows},
                 {Aspect::room, offset_is_beyond_the_edge}},
   };
 }
