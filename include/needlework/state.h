@@ -38,18 +38,18 @@ struct State {
                                                          ///< image is stored; a copy has it in a
                                                          ///< flow, and a start takes it where
                                                          ///< velocity is empty [L / time]
-  std::vector<double> peculiar_x;  ///< integral over time of the component of peculiar_velocity
-                                   ///< along x since the start of the run; a copy has it in a flow
-                                   ///< where an observable follows needles, else it is empty [L]
-  std::vector<std::array<double, 3>> orientation;       ///< unit directors [1]
-  std::vector<std::array<double, 3>> angular_velocity;  ///< normal to the director [1 / time]
-  std::vector<std::array<std::int32_t, 3>> image;       ///< number of box crossings along each
-                                                        ///< axis; empty: all 0
-  std::vector<std::uint32_t> id;                        ///< distinct; empty: 0 to N - 1
-  std::vector<std::uint8_t> species;                    ///< indices into the species of the scene;
-                                                        ///< empty: as many as the scene counts of
-                                                        ///< each, in order of id
-  Bodies bodies;                                        ///< of the file that it was read from
+  std::vector<double> peculiar_x;                        ///< integral over time of its part along x
+                                                         ///< since the start; a copy has it where
+                                                         ///< an observable follows needles [L]
+  std::vector<std::array<double, 3>> orientation;        ///< unit directors [1]
+  std::vector<std::array<double, 3>> angular_velocity;   ///< normal to the director [1 / time]
+  std::vector<std::array<std::int32_t, 3>> image;        ///< number of box crossings along each
+                                                         ///< axis; empty: all 0
+  std::vector<std::uint32_t> id;                         ///< distinct; empty: 0 to N - 1
+  std::vector<std::uint8_t> species;                     ///< indices into the species of the scene;
+                                                         ///< empty: as many as the scene counts of
+                                                         ///< each, in order of id
+  Bodies bodies;                                         ///< of the file that it was read from
 
   std::size_t size() const { return position.size(); }
   /// Resizes all arrays to n needles, images and ids included.

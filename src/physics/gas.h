@@ -29,20 +29,20 @@ struct Gas {
   LargeArray<Shift> images;  ///< total number of boxes by which each centre has been wrapped
   std::unique_ptr<FurtherTouches> further_touches = std::make_unique<FurtherTouches>();
   Clock clock;
-  Box box;                     ///< its edges, and which axes are periodic: those without walls
-  std::optional<Shear> shear;  ///< if rows of boxes slide
-  Vec3d gravity{};             ///< acceleration of all needles [L / time^2]
-  bool falls = false;          ///< gravity is not 0
-  Vec3d pull{};                ///< gravity along periodic axes, where it has no potential
-  Columns columns;             ///< what effects keep for each needle
-  /// State::peculiar_x up to the time of each record; null where nobody observes it. [L]
-  Column<double>* peculiar_x = nullptr;
+  Box box;                         ///< its edges, and which axes are periodic: those without walls
+  std::optional<Shear> shear;      ///< if rows of boxes slide
+  Vec3d gravity{};                 ///< acceleration of all needles [L / time^2]
+  bool falls = false;              ///< gravity is not 0
+  Vec3d pull{};                    ///< gravity along periodic axes, where it has no potential
+  Columns columns;                 ///< what effects keep for each needle
   Composition composition;         ///< indexed by Record::species
   double longest = 1;              ///< largest extent of a body, with departures from flights [L]
   std::unique_ptr<Slides> slides;  ///< null where needles do not slide on each other
   /// How far apart two axes in contact may be by the flights of their records, the largest diameter
   /// of rods left out. [L]
   double margin = 0;
+  /// State::peculiar_x of each needle at the time of its record; null where nobody observes it. [L]
+  Column<double>* peculiar_x = nullptr;
 
   std::size_t size() const { return records.size(); }
   void set_clock(const Clock& its_clock) {

@@ -4,6 +4,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import h5py
 import needlework
 import numpy as np
 from needlework import InputError, Simulation
@@ -77,6 +78,44 @@ class Shear(unittest.TestCase):
             np.testing.assert_allclose(on.peculiar_velocity, beside, atol=1e-13)
             with self.assertRaisesRegex(InputError, "expected a scene with \\[shear\\]"):
                 Simulation({"initial": {"file": str(file)}})
+
+    def test_observables_are_of_the_lattice_and_beside_the_flow(self):
+        observables = ["structure_factor", "time_correlation", "alignment", "profiles"]
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "run.h5")
+            output = {"file": str(path), "series_every": 0.3, "frames_every": 0.3, "grid": 4,
+                      "observables": observables}
+            with Simulation({**SCENE, "output": output}) as sim:
+                sim.run(time=3)
+            with h5py.File(path) as file:
+                r, c, u, w = (file[f"particles/needles/{name}/value"][:] for name in (
+                    "position", "peculiar_velocity", "orientation", "angular_velocity"))
+                a = file["particles/needles/box/edges/value"][:]
+                waves, paths, order, profiles = (file[f"series/{name}"] for name in observables)
+                # Of each two frames, in the order of ids.
+                for lag in (0, 1, 3):
+                    products = np.sum(c[lag:] * c[:len(c) - lag], axis=2).mean(axis=1)
+                    np.testing.assert_allclose(paths["velocity/value"][lag:, lag], products,
+                                               atol=1e-13)
+                np.testing.assert_allclose(
+                    order["spin_over_rate/value"][:], w[:, :, 2].mean(axis=1) / 1.5, rtol=1e-9)
+                for n in range(len(r)):
+                    k = np.zeros((3, 16, 3))
+                    for axis in range(3):
+                        k[axis, :, axis] = waves["k"][axis]
+                    k[0, :, 1] = waves["k_y/value"][n]
+                    # Whole waves along the vectors of the lattice.
+                    whole = k @ a[n].T / (2 * np.pi)
+                    np.testing.assert_allclose(whole, np.round(whole), atol=1e-12)
+                    s = np.abs(np.exp(1j * k @ r[n].T).sum(axis=2))**2 / 60
+                    np.testing.assert_allclose(waves["s/value"][n], s, atol=1e-10)
+                    q = (3 * u[n].T @ u[n] / 60 - np.eye(3)) / 2
+                    angle = np.arctan2(2 * q[0, 1], q[0, 0] - q[1, 1]) / 2
+                    self.assertAlmostEqual(order["flow_angle/value"][n], angle, places=10)
+                    slab = np.floor(r[n, :, 1]).astype(int)
+                    flow = [c[n, slab == y].sum(axis=0) / max(1, (slab == y).sum())
+                            for y in range(4)]
+                    np.testing.assert_allclose(profiles["flow/value"][n, 1], flow, atol=1e-12)
 
 
 if __name__ == "__main__":

@@ -56,11 +56,12 @@ Scene with_everything() {
   return scene;
 }
 
-// One species without walls, and with them, with all observables.
+// One species in a flow, and between walls, with all observables.
 Scene with_observables() {
   Scene scene;
   scene.needles.count = 2;
   scene.needles.box = {5, 5, 5};
+  scene.shear = Scene::Shear{.rate = 1};
   for (const auto& name : observable_names) {
     if (std::ranges::find(wall_observable_names, name) == wall_observable_names.end())
       scene.output.observables.emplace_back(name);
