@@ -67,6 +67,16 @@ until.time = 0.5
 """
 
 
+SHEARED = """
+needles = { count = 60, box = 5 }
+until.time = 0.5
+shear = { rate = 0.5, offset = 1 }
+output.frames = 3
+output.observables = ["alignment", "structure_factor", "displacement"]
+"""
+OF_FLOW = ("/energy_budget/shear", "/flow_angle", "/spin_over_rate", "/k_y")
+
+
 class Row:
     """`/path`, `/other` | meaning | `float64[samples or frames][3]`, unit: alternatives are those of the
     paths, in their order."""
@@ -244,7 +254,7 @@ def main(program, source):
         problems += problems_of_examples(document, "file-format.md", folder)
         problems += problems_of_examples(observables, "observables.md", folder)
         for name, scene in {"grid": SWEEP, "mixture": MIXTURE, "walled": WALLED, "rods": RODS,
-                            "sliding": SLIDING, "channel": CHANNEL}.items():
+                            "sliding": SLIDING, "channel": CHANNEL, "sheared": SHEARED}.items():
             with open(os.path.join(folder, f"{name}.toml"), "w", encoding="utf-8") as file:
                 file.write(scene)
             if name != "grid":
@@ -252,12 +262,16 @@ def main(program, source):
         run(["./needlework", "sweep", "grid.toml", "--out", "sweep", "--threads", "1", "--quiet"],
             folder)
         runs = rows_of(document, "Files of runs")
-        walls, of_gravity = [], []
+        walls, of_gravity, of_flow, at_rest = [], [], rows_of(document, "Files of sheared gases"), []
         for row in rows_of(document, "Files with walls"):
-            (of_gravity if row.paths[0].endswith("/gravity") else walls).append(row)
+            (of_flow if row.paths[0].endswith(OF_FLOW) else
+             of_gravity if row.paths[0].endswith("/gravity") else walls).append(row)
+        for row in rows_of(observables, "Datasets"):
+            (of_flow if row.paths[0].endswith(OF_FLOW) else at_rest).append(row)
         for name, rows, others in [
                 ("run.h5", runs, ()),
-                ("observed.h5", rows_of(observables, "Datasets"), runs),
+                ("observed.h5", at_rest, runs),
+                ("sheared.h5", of_flow, runs + at_rest + walls),
                 ("mixture.h5", rows_of(document, "Files of mixtures"), runs),
                 ("rods.h5", rows_of(document, "Files of rods"), runs),
                 ("sliding.h5", rows_of(document, "Files with sliding contact"), runs),
