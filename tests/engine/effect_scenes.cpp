@@ -119,7 +119,8 @@ Scene sheared(Scene scene, double rate, double offset) {
 std::vector<EffectScene> effect_scenes() {
   std::vector<EffectScene> out;
   const auto add = [&](const char* name, const Scene& scene, const Scene::Until& end) -> Scene& {
-    return out.emplace_back(name, scene, end).scene;
+    out.push_back({name, scene, end});
+    return out.back().scene;
   };
   add("cooling", cooling(160, 5), until_time(2));
   add("mixture", mixture(), until_collisions(10));

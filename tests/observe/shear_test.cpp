@@ -117,7 +117,8 @@ TEST(StructureFactorInShear, PeaksAtWavesOfTheLattice) {
   State state = resting(40, box);
   state.slide = slide;
   for (std::size_t i = 0; i < 40; ++i) {
-    const double a = double(i % 4) / 4, b = double(i / 4 % 5) / 5, c = double(i / 20) / 2;
+    const std::size_t layer = i / 20, row = i / 4 % 5;
+    const double a = double(i % 4) / 4, b = double(row) / 5, c = double(layer) / 2;
     state.position[i] = {a * box[0] + b * slide, b * box[1], c * box[2]};
   }
   Values values = Observed(sheared("structure_factor", 40, box, 0.3, slide)).sample(state);
