@@ -218,6 +218,13 @@ def guard(program, update):
         print(f"skipped: the figures are those of {committed['build']}, this program is {build}")
         return SKIPPED
 
+    # Libraries choose their instructions by the CPU, and there are some that valgrind does not know.
+    tried = subprocess.run(["valgrind", "--tool=none", program, "--version"], capture_output=True,
+                           text=True)
+    if "Unrecognised instruction" in tried.stderr:
+        print("skipped: valgrind does not know an instruction of the libraries on this CPU")
+        return SKIPPED
+
     counted = measure_all(jobs)
     for scene in DENSITIES:
         if counted[f"{scene}/scalar"][1] != counted[f"{scene}/avx2"][1]:

@@ -10,10 +10,24 @@
 
 namespace needlework {
 
+/// What bodies of a species are whose sizes differ: means over them, and how far they reach.
+struct Sizes {
+  double product = 0;  ///< of length and diameter, the mean [L^2]
+  double square = 0;   ///< of the diameter [L^2]
+  double cube = 0;     ///< of the diameter [L^3]
+  double volume = 0;   ///< the mean; so that of all is exact [L^3]
+  double least_extent = 0, greatest_extent = 0;      ///< from end to end [L]
+  double greatest_length = 0, greatest_diameter = 0;  ///< [L]
+  double least_diameter = 0;                         ///< [L]
+  double least_mass = 0, least_inertia = 0;          ///< [m], [m L^2]
+
+  friend bool operator==(const Sizes&, const Sizes&) = default;
+};
+
 /// One species of infinitely thin needles or, with a diameter, of rods of finite width: cylinders
 /// with spherical caps. A rod of length 0 is a sphere, which does not turn.
 struct Species {
-  std::string name;         ///< any text; names must differ
+  std::string name = {};    ///< any text; names must differ
   std::uint64_t count = 0;  ///< number of needles
   double length = 1.0;      ///< of the axis, without the caps [L]
   double mass = 1.0;        ///< [m]
@@ -25,12 +39,23 @@ struct Species {
   /// The moment of inertia as a scene gives it in place of k, which then follows. [m L^2]
   std::optional<double> given_inertia = {};
 
+  /// Where each body has numbers of its own, what else is known of all: length, diameter and mass
+  /// are then means, and k is that of the mean moment of inertia.
+  std::optional<Sizes> sizes = {};
+
   bool turns() const { return length > 0; }
   /// Moment of inertia about an axis through the centre, normal to the needle; 0 for spheres, whose
   /// rotation nothing changes. [m L^2]
   double inertia() const { return turns() ? mass * (length * length) / (2 * k) : 0; }
-  double extent() const { return length + diameter; }  ///< from end to end [L]
-  double volume() const;                               ///< [L^3]
+  double extent() const { return length + diameter; }  ///< from end to end; the mean [L]
+  /// Of the largest body. [L]
+  double greatest_extent() const { return sizes ? sizes->greatest_extent : extent(); }
+  double greatest_diameter() const { return sizes ? sizes->greatest_diameter : diameter; }
+  double greatest_length() const { return sizes ? sizes->greatest_length : length; }
+  double volume() const;  ///< the mean [L^3]
+  /// The means of length times diameter, and of the diameter squared. [L^2]
+  double product() const { return sizes ? sizes->product : length * diameter; }
+  double square() const { return sizes ? sizes->square : diameter * diameter; }
 };
 
 /// k of a homogeneous rod of this length and diameter, both >= 0 and not both 0.
@@ -76,6 +101,7 @@ class Composition {
   const std::vector<Restitution>& rules() const { return rules_; }
 
   void set_count(std::size_t index, std::uint64_t count) { species_[index].count = count; }
+  void set_species(std::size_t index, const Species& species) { species_[index] = species; }
 
   std::uint64_t count() const;  ///< number of needles of all species
   /// The species that all needles are of, where there is but one with needles. A species alone is
@@ -93,6 +119,8 @@ class Composition {
   double contact_distance(std::size_t a, std::size_t b) const {
     return 0.5 * (species_[a].diameter + species_[b].diameter);
   }
+  /// Whether the bodies of any species have numbers of their own.
+  bool has_own_sizes() const;
   double packing_fraction(double volume) const;  ///< share of this volume that rods take up
   bool is_mixture() const { return size() > 1; }
   /// One species of thin needles, as in the paper: kinetic theory is exact at every density.

@@ -56,6 +56,7 @@ struct RunInfo {
   std::vector<std::uint32_t> ids = {};   ///< of needles in each frame, for Writer::resume(), which
                                          ///< compares them if there are any
   std::vector<std::uint8_t> species = {};  ///< of needles in each frame; empty: all of the first
+  OwnBodies own_bodies = {};               ///< of the same needles, where those of a species differ
   /// Names in /parameters of what is assumed of the bodies, and not known.
   std::vector<std::string> assumed = {};
   bool has_kinds = false;  ///< whether /events holds more than collisions of two needles

@@ -137,6 +137,8 @@ class Simulation {
   std::vector<SpeciesTotals> species_totals() const;
   /// The species of each needle, in order of id; empty if there is one species.
   std::vector<std::uint8_t> species() const;
+  /// The numbers of each needle, in order of id, where those of a species differ; otherwise empty.
+  OwnBodies own_bodies() const;
   /// What the gas is made of, with the counts of the state.
   const Composition& composition() const;
   /// Collisions since the start of the run of each pair of species, by Composition::pair_index.

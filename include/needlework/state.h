@@ -24,6 +24,19 @@ struct Bodies {
   }
 };
 
+/// Numbers of each needle, where those of a species differ: rows of a state. What is empty is as
+/// the species says.
+struct OwnBodies {
+  std::vector<double> length = {};    ///< of the axis, without the caps [L]
+  std::vector<double> diameter = {};  ///< [L]
+  std::vector<double> mass = {};      ///< [m]
+  std::vector<double> inertia = {};   ///< 0 for spheres; if empty, by k of the species [m L^2]
+
+  bool empty() const {
+    return length.empty() && diameter.empty() && mass.empty() && inertia.empty();
+  }
+};
+
 /// Positions, velocities, directors and angular velocities of N needles, one row of three numbers
 /// for each needle.
 struct State {
@@ -50,6 +63,7 @@ struct State {
                                                          ///< empty: as many as the scene counts of
                                                          ///< each, in order of id
   Bodies bodies;                                         ///< of the file that it was read from
+  OwnBodies own_bodies;                                  ///< of each needle, or empty
 
   std::size_t size() const { return position.size(); }
   /// Resizes all arrays to n needles, images and ids included.

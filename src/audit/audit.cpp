@@ -73,6 +73,16 @@ Space space_of(const State& state, const Setup& setup, double unit) {
   return out;
 }
 
+// Where those of a species differ.
+AuditedBody own_body(const OwnBodies& own, std::size_t i, AuditedBody body, double unit) {
+  const double length = own.length.at(i), inertia = own.inertia.at(i);
+  body.length = length / unit;
+  body.diameter = own.diameter.at(i) / unit;
+  body.mass = own.mass.at(i);
+  if (length > 0) body.k = body.mass * (length * length) / (2 * inertia);
+  return body;
+}
+
 std::vector<Needle> needles_of(const State& state, const Instant& time,
                                const std::vector<AuditedBody>& bodies, double epoch_length,
                                double unit) {
@@ -84,7 +94,8 @@ std::vector<Needle> needles_of(const State& state, const Instant& time,
         Record{time, vector(state.position[i]) * (1 / unit),
                vector(state.velocity[i]) * (epoch_length / unit), vector(state.orientation[i]),
                vector(state.angular_velocity[i]) * epoch_length},
-        bodies.at(species));
+        state.own_bodies.empty() ? bodies.at(species)
+                                 : own_body(state.own_bodies, i, bodies.at(species), unit));
   }
   return needles;
 }

@@ -27,24 +27,24 @@ Instant later(const Instant& time, double epochs) {
 std::vector<Temperatures> temperatures_of(std::span<const Needle> needles,
                                           std::span<const AuditedBody> bodies) {
   struct Squares {
-    long double count = 0, v2 = 0, w2 = 0;
+    long double count = 0, v2 = 0, w2 = 0;  // weighted by m, and by m L^2 / k
   };
   std::vector<Squares> sums(bodies.size());
   for (const Needle& needle : needles) {
     const auto v = to<long double>(needle.record.v), w = to<long double>(needle.record.w);
     Squares& sum = sums[needle.body.species];
     ++sum.count;
-    sum.v2 += dot(v, v);
-    sum.w2 += dot(w, w);
+    const long double mass = needle.body.mass, length = needle.body.length, k = needle.body.k;
+    sum.v2 += mass * dot(v, v);
+    sum.w2 += mass * length * length / k * dot(w, w);
   }
   std::vector<Temperatures> out(bodies.size());
   for (std::size_t n = 0; n < out.size(); ++n) {
     const Squares& sum = sums[n];
     if (sum.count == 0) continue;
     // m <v^2> = 3 T_tr and I <w^2> = 2 T_rot with I = m L^2 / (2 k).
-    const long double mass = bodies[n].mass, length = bodies[n].length, k = bodies[n].k;
-    out[n] = {static_cast<double>(sum.count), static_cast<double>(mass * sum.v2 / (3 * sum.count)),
-              static_cast<double>(mass * length * length * sum.w2 / (4 * k * sum.count))};
+    out[n] = {static_cast<double>(sum.count), static_cast<double>(sum.v2 / (3 * sum.count)),
+              static_cast<double>(sum.w2 / (4 * sum.count))};
   }
   return out;
 }

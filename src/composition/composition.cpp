@@ -8,6 +8,7 @@ namespace needlework {
 
 double Species::volume() const {
   constexpr double pi = std::numbers::pi;
+  if (sizes) return sizes->volume;
   return pi * diameter * diameter * (length / 4 + diameter / 6);
 }
 
@@ -60,13 +61,13 @@ std::optional<std::size_t> Composition::only() const {
 
 double Composition::longest() const {
   double out = 0;
-  for_each_present(species_, [&](std::size_t n) { out = std::max(out, species_[n].extent()); });
+  for_each_present(species_, [&](std::size_t n) { out = std::max(out, species_[n].greatest_extent()); });
   return out;
 }
 
 double Composition::widest() const {
   double out = 0;
-  for_each_present(species_, [&](std::size_t n) { out = std::max(out, species_[n].diameter); });
+  for_each_present(species_, [&](std::size_t n) { out = std::max(out, species_[n].greatest_diameter()); });
   return out;
 }
 
@@ -74,6 +75,10 @@ bool Composition::are_spheres() const {
   bool out = true;
   for_each_present(species_, [&](std::size_t n) { out = out && !species_[n].turns(); });
   return out;
+}
+
+bool Composition::has_own_sizes() const {
+  return std::ranges::any_of(species_, [](const Species& each) { return each.sizes.has_value(); });
 }
 
 double Composition::turning_share() const {

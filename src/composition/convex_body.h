@@ -7,7 +7,7 @@
 
 namespace needlework {
 
-/// Of one body or, added up, of all in a unit of volume.
+/// Of one body, the mean of those of a species or, added up, of all in a unit of volume.
 struct ConvexBody {
   double radius = 0;   ///< of curvature, the mean of both over the surface [L]
   double surface = 0;  ///< [L^2]
@@ -16,7 +16,8 @@ struct ConvexBody {
 
 inline ConvexBody convex_body(const Species& species) {
   const double length = species.length, width = species.diameter;
-  return {length / 4 + width / 2, std::numbers::pi * width * (length + width), species.volume()};
+  return {length / 4 + width / 2, std::numbers::pi * (species.product() + species.square()),
+          species.volume()};
 }
 
 /// Adds so many of these bodies per volume. [L^-3]

@@ -23,7 +23,7 @@ struct NeedleAt {
   Needle needle;
   Id id;
   const Record& record;  ///< made before the event
-  const Body& body;
+  Body body;
   Time now;
   Vec3d centre;            ///< [L]
   Vec3d director;          ///< a unit vector to within rounding

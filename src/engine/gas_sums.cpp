@@ -31,7 +31,7 @@ template <class Sum>
 auto with_weights(const Gas& gas, std::size_t species, const Sum& sum) {
   // To look at each body would cost half as much again as the sums.
   if (gas.bodies_are_of(species)) return sum([](const Record&) { return Weight{}; });
-  return sum([&gas](const Record& a) { return weight_of(gas, a); });
+  return sum([&gas](const Record& a) { return weight_of(gas, needle_of(gas, a)); });
 }
 
 // SumsOfSquares::height and pulled of a species.
@@ -101,9 +101,9 @@ auto with_motion(const Gas& gas, Time now, std::size_t species, const Sum& sum) 
 
 }  // namespace
 
-Weight weight_of(const Gas& gas, const Record& record) {
-  const Body& body = gas.body(record);
-  const Species& species = gas.composition[record.species];
+Weight weight_of(const Gas& gas, Needle i) {
+  const Body body = gas.body(i);
+  const Species& species = gas.composition[gas.records[i].species];
   return {.mass = body.mass / species.mass,
           .inertia = body.turns() ? body.inertia / species.inertia() : 1};
 }

@@ -16,7 +16,7 @@ namespace needlework {
 struct Weight {
   double mass = 1, inertia = 1;
 };
-Weight weight_of(const Gas& gas, const Record& record);
+Weight weight_of(const Gas& gas, Needle i);
 
 /// Sums over all needles of a species, on which its energy depends: w2 is weighted by moments of
 /// inertia, the others by masses.

@@ -10,13 +10,14 @@
 
 #include "needlework/error.h"
 #include "src/composition/total_mass.h"
+#include "src/engine/rods_apart.h"
 #include "src/machine/stop_request.h"
 #include "src/physics/vectors.h"
 #include "src/scene/box_edges.h"
 #include "src/scene/check.h"
 #include "src/scene/confinement.h"
 #include "src/scene/derived_numbers.h"
-#include "src/scene/rod_grid.h"
+#include "src/scene/own_bodies.h"
 
 namespace needlework {
 namespace {
@@ -66,7 +67,8 @@ void require_same_bodies(const Composition& composition, const Bodies& bodies) {
     check_size(expected.size(), composition.size(), "species");
     for (std::size_t n = 0; n < expected.size(); ++n) {
       const double given = composition[n].*value;
-      const bool counts = composition[n].turns() || value != &Species::k;
+      const bool counts =
+          (composition[n].turns() || value != &Species::k) && !composition[n].sizes;
       if (!counts || std::abs(given - expected[n]) <= 1e-12 * expected[n]) continue;
       throw InputError(fmt::format("state: bodies of {} = {}: expected {}, as in the scene", key,
                                    expected[n], given));
@@ -127,6 +129,12 @@ void set_species(Gas& gas, const State& initial, const std::vector<std::size_t>&
   }
 }
 
+// Gives each needle its body, where those of a species differ.
+void set_own_bodies(Gas& gas, const State& initial, const std::vector<std::size_t>& rows) {
+  const std::vector<BodyNumbers> bodies = own_bodies_of(gas.composition, initial);
+  for (std::size_t i = 0; i < bodies.size(); ++i) gas.own_bodies[i] = bodies[rows[i]];
+}
+
 // That tips are inside the walls, as they are at the start, to within rounding.
 void require_inside(const Scene& scene, const Gas& gas) {
   const std::array<Gap, 3> gaps = gaps_of(scene);
@@ -136,12 +144,11 @@ void require_inside(const Scene& scene, const Gas& gas) {
     const Record& record = gas.records[i];
     const Vec3d &r = record.flight.r, &u = record.flight.u;
     const std::array<double, 3> centre = {r.x, r.y, r.z}, director = {u.x, u.y, u.z};
-    const Body& body = gas.body(i);
-    const double half = body.half_length / std::hypot(u.x, u.y, u.z);
+    const double half = gas.half_length(i) / std::hypot(u.x, u.y, u.z);
     for (const Scene::WallSide& side : walls) {
       Gap wall = gaps[side.axis];
       (side.is_high ? wall.has_low : wall.has_high) = false;
-      const double reach = half * std::abs(director[side.axis]) + body.radius;
+      const double reach = half * std::abs(director[side.axis]) + gas.radius(i);
       const double beyond = wall.beyond(centre[side.axis], reach, gas.box.edge(side.axis));
       if (beyond <= gas.touch_tolerance()) continue;
       throw InputError(fmt::format(
@@ -173,7 +180,9 @@ void require_steady_flow(const Gas& gas) {
 // That no two rods overlap but by rounding, and that spheres do not turn.
 void require_room_for_rods(const Gas& gas) {
   if (!gas.composition.has_width()) return;
-  RodGrid grid(gas.composition, gas.box_at({}), gas.size());
+  std::vector<RodShape> shapes;
+  for (Needle i{0}; i < gas.size(); ++i) shapes.push_back(shape_of(gas, i));
+  RodGrid grid(shapes, gas.box_at({}));
   std::size_t pairs = 0;
   RodGrid::Overlap worst{};
   std::array<std::uint32_t, 2> worst_ids{};
@@ -187,14 +196,14 @@ void require_room_for_rods(const Gas& gas) {
     const std::array<double, 3> centre = to_array(record.flight.r),
                                 director = to_array(record.flight.u);
     for (const RodGrid::Overlap& overlap :
-         grid.overlaps(centre, director, record.species, gas.touch_tolerance())) {
+         grid.overlaps(centre, director, shapes[i], gas.touch_tolerance())) {
       ++pairs;
       if (pairs > 1 && overlap.expected - overlap.distance <= worst.expected - worst.distance)
         continue;
       worst = overlap;
       worst_ids = {gas.ids[Needle(overlap.other)].value, gas.ids[i].value};
     }
-    grid.enter(centre, director, record.species);
+    grid.enter(centre, director, shapes[i]);
   }
   if (pairs == 0) return;
   throw InputError(
@@ -316,6 +325,7 @@ Gas make_gas(const Scene& scene, const State& initial) {
       refuse_vector(flight.u, "orientation", gas.ids[i], "one that is not 0");
   }
   set_species(gas, initial, order);
+  set_own_bodies(gas, initial, order);
   require_steady_flow(gas);
   require_inside(scene, gas);
   require_room_for_rods(gas);

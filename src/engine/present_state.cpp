@@ -13,6 +13,19 @@
 
 namespace needlework {
 
+void copy_own_bodies(const Gas& gas, const std::vector<Needle>& order, OwnBodies& own) {
+  const std::size_t rows = gas.has_own_bodies() ? order.size() : 0;
+  for (std::vector<double>* column : {&own.length, &own.diameter, &own.mass, &own.inertia})
+    column->resize(rows);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const BodyNumbers& body = gas.own_bodies[order[row]];
+    own.length[row] = body.length;
+    own.diameter[row] = body.diameter;
+    own.mass[row] = body.mass;
+    own.inertia[row] = body.inertia;
+  }
+}
+
 void copy_state(const Gas& gas, Time at, kernels::Isa isa, const std::vector<Needle>& order,
                 State& out) {
   using C = kernels::FlightColumns;
@@ -25,6 +38,7 @@ void copy_state(const Gas& gas, Time at, kernels::Isa isa, const std::vector<Nee
   out.peculiar_velocity.resize(gas.shear ? gas.size() : 0);
   out.peculiar_x.resize(gas.peculiar_x ? gas.size() : 0);
   out.species.resize(gas.composition.is_mixture() ? gas.size() : 0);
+  copy_own_bodies(gas, order, out.own_bodies);
   // Few enough for the columns to stay in the first-level cache.
   constexpr std::size_t at_once = 64;
   static_assert(at_once % kernels::flights_at_once == 0);
@@ -87,8 +101,8 @@ FreeNeedle needle_at(const Gas& gas, Time at, Id id) {
   out.orientation = to_array(there.u);
   out.velocity = to_array(there.v - box.image(boxes).velocity);
   out.angular_velocity = to_array(there.w);
-  out.length = gas.body(i).length();
-  out.diameter = 2 * gas.body(i).radius;
+  out.length = 2 * gas.half_length(i);
+  out.diameter = 2 * gas.radius(i);
   return out;
 }
 

@@ -9,7 +9,6 @@
 
 #include "needlework/error.h"
 #include "src/engine/present_state.h"
-#include "src/scene/rod_grid.h"
 
 namespace needlework {
 namespace {
@@ -19,6 +18,10 @@ constexpr double most_overlap_of_rods = 1e-13;
 
 }  // namespace
 
+RodShape shape_of(const Gas& gas, Needle i) {
+  return {2 * gas.half_length(i), 2 * gas.radius(i), gas.records[i].species};
+}
+
 double explained_overlap(const Gas& gas, Time at) {
   double smallest = gas.composition.widest();
   // Positions and directors are rounded when records are made, and again when they are moved on.
@@ -26,10 +29,10 @@ double explained_overlap(const Gas& gas, Time at) {
   double fastest = 0;
   for (Needle i{0}; i < gas.size(); ++i) {
     const Record& record = gas.records[i];
-    smallest = std::min(smallest, 2 * gas.body(i).radius);
+    smallest = std::min(smallest, 2 * gas.radius(i));
     const double fallen =
         std::sqrt(dot(gas.gravity, gas.gravity)) * gas.clock.difference(at, record.time);
-    const double turns = gas.body(i).half_length * record.flight.omega;
+    const double turns = gas.half_length(i) * record.flight.omega;
     fastest = std::max(fastest, std::sqrt(dot(record.flight.v, record.flight.v)) + fallen + turns);
   }
   return most_overlap_of_rods * smallest + rounding + 2 * fastest * gas.clock.resolution();
@@ -39,14 +42,17 @@ std::optional<RodOverlap> find_overlap(const Gas& gas, Time at, kernels::Isa isa
                                        double tolerance) {
   if (!gas.composition.has_width()) return {};
   std::vector<Needle> order;
-  for (Needle i{0}; i < gas.size(); ++i) order.push_back(i);
+  std::vector<RodShape> shapes;
+  for (Needle i{0}; i < gas.size(); ++i) {
+    order.push_back(i);
+    shapes.push_back(shape_of(gas, i));
+  }
   State state;
   copy_state(gas, at, isa, order, state);
-  RodGrid grid(gas.composition, gas.box_at(at), gas.size());
+  RodGrid grid(shapes, gas.box_at(at));
   for (std::size_t i = 0; i < state.size(); ++i) {
-    const SpeciesIndex species = state.species.empty() ? SpeciesIndex{0} : state.species[i];
-    const auto overlap = grid.overlap(state.position[i], state.orientation[i], species, tolerance);
-    grid.enter(state.position[i], state.orientation[i], species);
+    const auto overlap = grid.overlap(state.position[i], state.orientation[i], shapes[i], tolerance);
+    grid.enter(state.position[i], state.orientation[i], shapes[i]);
     if (!overlap) continue;
     const auto [first, second] = std::minmax(state.id[overlap->other], state.id[i]);
     return RodOverlap{first, second, overlap->expected - overlap->distance};

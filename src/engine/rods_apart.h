@@ -6,8 +6,12 @@
 
 #include "kernels/isa.h"
 #include "src/physics/gas.h"
+#include "src/scene/rod_grid.h"
 
 namespace needlework {
+
+/// What needle i is, as far as overlaps go.
+RodShape shape_of(const Gas& gas, Needle i);
 
 /// By how much rods may overlap at this time, which is what rounding explains: 1e-13 of the
 /// smallest diameter, what positions in this box do not hold, and how far the fastest rods move

@@ -51,6 +51,18 @@ void require_flight(const kernels::Flight& f) {
   require(std::isfinite(f.omega));
 }
 
+// Such numbers that all means and searches are right.
+void require_body(const BodyNumbers& body, const Species& species) {
+  require(species.sizes.has_value());
+  const Sizes& sizes = *species.sizes;
+  const double extent = body.length + body.diameter;
+  require(extent >= sizes.least_extent && extent <= sizes.greatest_extent);
+  require(body.length >= 0 && body.length <= sizes.greatest_length);
+  require(body.diameter >= sizes.least_diameter && body.diameter <= sizes.greatest_diameter);
+  require(body.mass >= sizes.least_mass && std::isfinite(body.mass));
+  require(body.inertia >= sizes.least_inertia && std::isfinite(body.inertia));
+}
+
 // The parameters on which the trajectory depends.
 std::vector<double> physics_of(const Run& run, const Scene& scene) {
   constexpr double absent = -1;
@@ -87,6 +99,11 @@ std::vector<double> physics_of(const Run& run, const Scene& scene) {
   if (composition.has_width()) {
     for (const Species& each : composition.species()) out.push_back(each.diameter);
   }
+  for (const Species& each : composition.species()) {
+    if (!each.sizes) continue;
+    out.insert(out.end(), {each.sizes->least_extent, each.sizes->greatest_extent,
+                           each.sizes->product, each.sizes->square});
+  }
   if (!composition.is_mixture()) return out;
   for (const Species& each : composition.species()) {
     out.insert(out.end(), {static_cast<double>(each.count), each.length, each.mass, each.k});
@@ -112,6 +129,10 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
   Record& record = gas.records[i];
   archive(gas.ids[i].value, gas.images[i], record.time, record.flight, record.serial,
           record.species);
+  if (gas.has_own_bodies()) {
+    BodyNumbers& body = gas.own_bodies[i];
+    archive(body.length, body.diameter, body.mass, body.inertia);
+  }
   std::vector<RecordedTouch> touches;
   if (!archive.reads()) touches = touches_of(gas, i);
   archive(touches);
@@ -119,6 +140,7 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
   const kernels::Flight& f = record.flight;
   require_flight(f);
   require(record.species < gas.composition.size());
+  if (gas.has_own_bodies()) require_body(gas.own_bodies[i], gas.composition[record.species]);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::int32_t boxes = gas.images[i][axis];
     require((gas.shear && axis == 0) || (boxes >= -most_boxes && boxes <= most_boxes));

@@ -24,6 +24,7 @@
 #include "src/scene/accuracy.h"
 #include "src/scene/check.h"
 #include "src/scene/confinement.h"
+#include "src/scene/own_bodies.h"
 #include "src/scene/validity.h"
 #include "src/search/choice.h"
 #include "src/search/lengths.h"
@@ -162,8 +163,8 @@ struct Simulation::Implementation {
     std::vector<SumsOfSquares> sums(run.gas.composition.size());
     const auto add_to = [&](double SumsOfSquares::*sum, double Weight::*weight) {
       return [&, sum, weight](std::size_t row, double square) {
-        const Record& record = run.gas.records[rows[row]];
-        sums[record.species].*sum += weight_of(run.gas, record).*weight * square;
+        const Needle i = rows[row];
+        sums[run.gas.records[i].species].*sum += weight_of(run.gas, i).*weight * square;
       };
     };
     check_squares(velocity, rows.size(), "velocity", add_to(&SumsOfSquares::v2, &Weight::mass));
@@ -268,10 +269,21 @@ struct Simulation::Implementation {
   std::string placement;  ///< how rods of a drawn state have found room
 };
 
+namespace {
+
+// The scene of the bodies that a state has.
+Scene with_bodies_of(const State& initial, Scene scene) {
+  adopt_own_bodies(scene, initial);
+  return scene;
+}
+
+}  // namespace
+
 void require_simulable(const Scene& scene, const State& initial) {
   const kernels::DefaultArithmetic arithmetic;
   require_valid(scene, simulable);
-  const Run run(scene, make_gas(scene, initial));
+  const Scene its = with_bodies_of(initial, scene);
+  const Run run(its, make_gas(its, initial));
 }
 
 namespace {
@@ -346,7 +358,8 @@ Simulation::Simulation(const Scene& scene) {
 Simulation::Simulation(const Scene& scene, const State& initial) {
   const kernels::DefaultArithmetic arithmetic;
   require_valid(scene, simulable);
-  implementation_ = std::make_unique<Implementation>(scene, make_gas(scene, initial));
+  const Scene its = with_bodies_of(initial, scene);
+  implementation_ = std::make_unique<Implementation>(its, make_gas(its, initial));
 }
 
 Simulation::Simulation(const Scene& scene, const Checkpoint& checkpoint) {
@@ -501,6 +514,12 @@ std::vector<std::uint8_t> Simulation::species() const {
   std::vector<std::uint8_t> out;
   if (!gas.composition.is_mixture()) return out;
   for (const Needle i : implementation_->by_id()) out.push_back(gas.records[i].species);
+  return out;
+}
+OwnBodies Simulation::own_bodies() const {
+  OwnBodies out;
+  if (implementation_->run.gas.has_own_bodies())
+    copy_own_bodies(implementation_->run.gas, implementation_->by_id(), out);
   return out;
 }
 const Composition& Simulation::composition() const { return implementation_->run.gas.composition; }

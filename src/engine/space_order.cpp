@@ -64,6 +64,7 @@ void reorder(Gas& gas, const std::vector<Needle>& order) {
   StopRequest::check();
   permute(gas.ids, order);
   permute(gas.images, order);
+  if (gas.has_own_bodies()) permute(gas.own_bodies, order);
   gas.columns.permute(order);
 }
 

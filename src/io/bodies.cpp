@@ -96,12 +96,40 @@ Bodies read_bodies(const Source& source) {
   bodies.diameter = read_numbers(source, "diameter");
   bodies.mass = read_numbers(source, "mass");
   bodies.k = read_numbers(source, "k");
-  if (!has_dataset(source, "/parameters/mass")) bodies.mass = masses_by_species(source);
+  const bool are_alike = !has_dataset(source, find_particles(source) + "/length");
+  if (!has_dataset(source, "/parameters/mass") && are_alike)
+    bodies.mass = masses_by_species(source);
   // There is a species of which the file has no particle.
   if (std::ranges::count(bodies.mass, 0) > 0) bodies.mass.clear();
   // A file that says how long its needles are says their diameter, unless they have none.
   if (!has_dataset(source, "/parameters/diameter")) bodies.diameter.assign(bodies.length.size(), 0);
   return bodies;
+}
+
+OwnBodies read_own_bodies(const Source& source, std::size_t needles) {
+  const std::string group = find_particles(source) + "/";
+  OwnBodies out;
+  const auto has = [&](const std::string& name) {
+    return hdf5::exists(source.get(), group + name, source.place(group + name));
+  };
+  if (!has("length")) return out;
+  for (const auto& [name, column] : {std::pair("length", &out.length),
+                                     {"diameter", &out.diameter},
+                                     {"mass", &out.mass},
+                                     {"inertia", &out.inertia}}) {
+    if (!has(name)) continue;
+    *column = Element(source, group + name).read<double>({});
+    const std::string place = source.place(group + name);
+    if (column->size() != needles) {
+      throw InputError(fmt::format("{}: {} numbers: expected {}, one for each needle", place,
+                                   column->size(), needles));
+    }
+    for (const double value : *column) {
+      if (std::isfinite(value) && value >= 0) continue;
+      throw InputError(fmt::format("{} = {}: expected a number >= 0", place, value));
+    }
+  }
+  return out;
 }
 
 }  // namespace needlework::io

@@ -1,6 +1,8 @@
 // What H5MD files say of their bodies.
 #pragma once
 
+#include <cstddef>
+
 #include "needlework/state.h"
 #include "src/io/source.h"
 
@@ -12,6 +14,10 @@ namespace needlework::io {
 /// it was imported from does not say it. Throws InputError, "PATH: /DATASET...: expected ...", for
 /// numbers that no body has.
 Bodies read_bodies(const Source& source);
+
+/// The numbers of each needle, where those of a species differ: the particles then have a length.
+/// Throws InputError for other than one number for each, or numbers that no body has.
+OwnBodies read_own_bodies(const Source& source, std::size_t needles);
 
 /// The mass of the particles of each species, 0 of a species without any; nothing if the file does
 /// not hold masses. Throws InputError if those of a species differ.

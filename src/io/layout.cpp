@@ -93,7 +93,7 @@ Handle make_box(hid_t needles, const Scene& scene, const std::string& place) {
 }
 
 StepAndTime make_needles(hid_t group, const Scene& scene, std::vector<std::uint8_t> species,
-                         const std::string& place) {
+                         const OwnBodies& own, const std::string& place) {
   const std::uint64_t count = scene.needles.count;
   const hsize_t rows = frames_per_chunk(count);
   const Shape row{count, 3};
@@ -116,10 +116,16 @@ StepAndTime make_needles(hid_t group, const Scene& scene, std::vector<std::uint8
   hdf5::write_array<std::uint32_t>(group, "id", {count}, ids, place);
   species.resize(count);
   const Composition composition = scene.composition();
-  std::vector<double> masses;
+  std::vector<double> masses = own.mass;
   masses.reserve(count);
-  for (const std::uint8_t index : species) masses.push_back(composition[index].mass);
+  for (std::size_t i = masses.size(); i < species.size(); ++i)
+    masses.push_back(composition[species[i]].mass);
   hdf5::write_array<double>(group, "mass", {count}, masses, place);
+  for (const auto& [name, column] : {std::pair("length", &own.length),
+                                     {"diameter", &own.diameter},
+                                     {"inertia", &own.inertia}}) {
+    if (!column->empty()) hdf5::write_array<double>(group, name, {count}, *column, place);
+  }
   hdf5::write_array<std::uint8_t>(group, "species", {count}, species, place);
   return shared;
 }
@@ -250,7 +256,7 @@ void make_layout(hid_t file, const Scene& scene, const RunInfo& run, const std::
   make_parameters(file, scene, run, place);
   const Handle particles = create_group(file, "particles", place);
   const StepAndTime frames = make_needles(create_group(particles.get(), "needles", place).get(),
-                                          scene, run.species, place);
+                                          scene, run.species, run.own_bodies, place);
   make_totals(create_group(file, "observables", place).get(), frames, place);
   const Handle series = create_group(file, "series", place);
   const StepAndTime samples = make_step_and_time(series.get(), place);

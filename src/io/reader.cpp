@@ -26,11 +26,15 @@ static void transfer(Archive& archive, Bodies& bodies) {
   archive(names, length, diameter, mass, k);
 }
 
+static void transfer(Archive& archive, OwnBodies& bodies) {
+  archive(bodies.length, bodies.diameter, bodies.mass, bodies.inertia);
+}
+
 static void transfer(Archive& archive, State& state) {
   auto& [box, periodic, slide, shear_rate, position, velocity, peculiar_velocity, peculiar_x,
-         orientation, angular_velocity, image, id, species, bodies] = state;
+         orientation, angular_velocity, image, id, species, bodies, own_bodies] = state;
   archive(box, periodic, slide, shear_rate, position, velocity, peculiar_velocity, peculiar_x,
-          orientation, angular_velocity, image, id, species, bodies);
+          orientation, angular_velocity, image, id, species, bodies, own_bodies);
 }
 
 }  // namespace needlework
@@ -155,6 +159,7 @@ State FrameReader::read(std::size_t frame) {
   if (has("species")) state.species = read_species();
   require_needles(state);
   state.bodies = bodies();
+  state.own_bodies = read_own_bodies(source_, needles_);
   return state;
 }
 

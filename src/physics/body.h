@@ -2,6 +2,7 @@
 #pragma once
 
 #include "needlework/composition.h"
+#include "src/composition/sizes.h"
 
 namespace needlework {
 
@@ -35,9 +36,18 @@ inline Body body_of(const Species& species) {
           .inverse_inertia = species.turns() ? 2 * species.k / squares : 0};
 }
 
+inline Body body_of(const BodyNumbers& numbers) {
+  return {.half_length = 0.5 * numbers.length,
+          .radius = 0.5 * numbers.diameter,
+          .mass = numbers.mass,
+          .inertia = numbers.inertia,
+          .inverse_mass = 1 / numbers.mass,
+          .inverse_inertia = numbers.inertia > 0 ? 1 / numbers.inertia : 0};
+}
+
 /// Whether the model looks up nothing for this species, because all its factors are 1.
 inline bool is_unit(const Species& species) {
-  return species.length == 1 && species.mass == 1 && species.diameter == 0;
+  return species.length == 1 && species.mass == 1 && species.diameter == 0 && !species.sizes;
 }
 
 }  // namespace needlework

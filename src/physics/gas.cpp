@@ -119,13 +119,9 @@ void Gas::set_composition(Composition its_composition) {
 void Gas::look_up_bodies() {
   longest = composition.longest() * (slides ? 1 + 2 * most_departure : 1);
   bodies_.clear();
-  for (const Species& each : composition.species()) bodies_.push_back(body_of(each));
-}
-
-Body Gas::body_of(const Species& species) const {
-  Body body = needlework::body_of(species);
-  if (slides) body.departure = most_departure * body.length();
-  return body;
+  for (const Species& each : composition.species()) {
+    bodies_.push_back(as_in_this_gas(body_of(each)));
+  }
 }
 
 void Gas::add_touch(Needle i, const RecordedTouch& touch) {
@@ -160,8 +156,7 @@ Shift add_boxes(const Gas& gas, Needle i, const Boxes& boxes) {
 void Gas::let_slide() {
   slides = std::make_unique<Slides>();
   look_up_bodies();
-  margin = 0;
-  for (const Body& body : bodies_) margin = std::max(margin, 2 * body.departure);
+  margin = 2 * most_departure * composition.longest();
 }
 
 kernels::BodyState Gas::present(Id id, const Record& record, Time now) const {

@@ -36,6 +36,7 @@ struct Gas {
   Vec3d pull{};                    ///< gravity along periodic axes, where it has no potential
   Columns columns;                 ///< what effects keep for each needle
   Composition composition;         ///< indexed by Record::species
+  LargeArray<BodyNumbers> own_bodies;  ///< of each needle; empty where those of a species are alike
   double longest = 1;              ///< largest extent of a body, with departures from flights [L]
   std::unique_ptr<Slides> slides;  ///< null where needles do not slide on each other
   /// How far apart two axes in contact may be by the flights of their records, the largest diameter
@@ -73,19 +74,28 @@ struct Gas {
   void set_composition(Composition its_composition);
   /// Lets needles slide on each other. To be called after set_composition().
   void let_slide();
-  /// Length, mass and inertia of needle i. That the needles of a species have the same is known
-  /// to this and the next three functions alone.
-  const Body& body(Needle i) const { return body(records[i]); }
-  const Body& body(const Record& record) const { return bodies_[record.species]; }
+  /// Length, mass and inertia of needle i. Whether those of a species have the same is known to this
+  /// and the next five functions alone.
+  Body body(Needle i) const { return has_own_bodies() ? own_body(i) : body_of_species(i); }
+  double half_length(Needle i) const {
+    return has_own_bodies() ? 0.5 * own_bodies[i].length : body_of_species(i).half_length;
+  }
+  double radius(Needle i) const {
+    return has_own_bodies() ? 0.5 * own_bodies[i].diameter : body_of_species(i).radius;
+  }
+  /// Body::reach() of needle i. [L]
+  double reach(Needle i) const {
+    return has_own_bodies() ? own_body(i).reach() : body_of_species(i).reach();
+  }
+  bool has_own_bodies() const { return !own_bodies.empty(); }
   /// Whether the needles of a species have the mass and the moment of inertia that it has.
   bool bodies_are_of(std::size_t species) const {
     const Species& its = composition[species];
-    return bodies_[species].mass == its.mass && bodies_[species].inertia == its.inertia();
+    return !has_own_bodies() && bodies_[species].mass == its.mass &&
+           bodies_[species].inertia == its.inertia();
   }
   /// Of all needles. [m]
   double mass() const { return total_mass(composition); }
-  /// What needles of a species are in this gas.
-  Body body_of(const Species& species) const;
   /// How a needle moves from its record on.
   FreeFlight motion(const Record& record) const {
     return FreeFlight(record.flight, falls ? &gravity : nullptr);
@@ -116,6 +126,7 @@ struct Gas {
     ids.resize(needles);
     images.resize(needles);
     columns.resize(needles);
+    if (composition.has_own_sizes()) own_bodies.resize(needles);
   }
 
   /// Largest |f| that can result from rounding two records, including what accumulates in a
@@ -130,6 +141,12 @@ struct Gas {
 
  private:
   void look_up_bodies();
+  const Body& body_of_species(Needle i) const { return bodies_[records[i].species]; }
+  Body own_body(Needle i) const { return as_in_this_gas(needlework::body_of(own_bodies[i])); }
+  Body as_in_this_gas(Body body) const {
+    if (slides) body.departure = most_departure * body.length();
+    return body;
+  }
 
   std::vector<Body> bodies_ = {needlework::body_of(Species{})};  ///< of each species
 };

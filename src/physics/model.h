@@ -47,7 +47,7 @@ concept Model = requires(const M& model, Needle i, const Record& record, const S
   { model.restitution(record, record) } -> std::convertible_to<const Restitution&>;
   { model.accuracy() } -> std::convertible_to<const Accuracy&>;
   { model.motion(record) } -> NeedleMotion;
-  { model.body(i) } -> std::same_as<const Body&>;
+  { model.body(i) } -> std::convertible_to<Body>;
   { model.half_length(i) } -> std::same_as<double>;
   { model.reach(i) } -> std::same_as<double>;
   { model.contact() } -> std::same_as<const typename M::Law&>;

@@ -56,29 +56,31 @@ class NeedleModel {
     if constexpr (has_effects) return gas_.motion(record);
     return FreeFlight(record.flight);
   }
-  const Body& body(Needle i) const {
-    if constexpr (has_effects) return gas_.body(i);
-    return unit_;
+  decltype(auto) body(Needle i) const {
+    if constexpr (has_effects)
+      return gas_.body(i);
+    else
+      return (unit_);
   }
   /// Half the length of the axis of needle i. [L]
   double half_length(Needle i) const {
-    if constexpr (has_effects) return gas_.body(i).half_length;
+    if constexpr (has_effects) return gas_.half_length(i);
     return 0.5;
   }
   /// How far it reaches from its centre. Centres of two needles that are farther apart than both
   /// reach cannot be in contact. [L]
   double reach(Needle i) const {
-    if constexpr (Law::has_distance || has_sliding) return gas_.body(i).reach();
+    if constexpr (Law::has_distance || has_sliding) return gas_.reach(i);
     return half_length(i);
   }
   typename Law::Pair pair(Needle a, const Record& record_a, Needle b, const Record& record_b,
                           const Shift& shift) const {
     typename Law::Pair out{make_pair(gas_, a, record_a, b, record_b, shift)};
     if constexpr (has_effects) {
-      out.half_first = body(a).half_length;
-      out.half_second = body(b).half_length;
+      out.half_first = half_length(a);
+      out.half_second = half_length(b);
     }
-    if constexpr (Law::has_distance) out.distance = body(a).radius + body(b).radius;
+    if constexpr (Law::has_distance) out.distance = gas_.radius(a) + gas_.radius(b);
     if constexpr (has_sliding) out.look_up(gas_, {a, record_a}, {b, record_b}, shift);
     return out;
   }
@@ -139,7 +141,7 @@ class NeedleModel {
     const Vec3d v = first.v - second.v;
     const double speeds = std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
     // Far more than what rounds these places, and than what rounds the product.
-    const double least = 0x1p-20 * (body(a).radius + body(b).radius) + gas_.touch_tolerance();
+    const double least = 0x1p-20 * (gas_.radius(a) + gas_.radius(b)) + gas_.touch_tolerance();
     return dot(r, v) > least * speeds;
   }
   /// From end to end. [L]

@@ -10,6 +10,7 @@
 
 #include "needlework/error.h"
 #include "src/scene/check.h"
+#include "src/scene/own_bodies.h"
 #include "src/scene/printable.h"
 #include "src/scene/section.h"
 #include "src/scene/validity.h"
@@ -208,6 +209,7 @@ void adopt_state(Scene& scene, const State& state) {
   adopt_bodies(scene, state.bodies);
   require_rules(scene, Aspect::species | Aspect::bodies | Aspect::pairs | Aspect::effects);
   adopt_count_and_box(scene, state);
+  adopt_own_bodies(scene, state);
   if (scene.places.contains("needles.box")) require_rules(scene, Aspect::room);
 }
 

@@ -9,31 +9,18 @@
 #include <vector>
 
 #include "src/box/vector.h"
+#include "src/composition/compensated_sum.h"
 #include "src/composition/convex_body.h"
 #include "src/machine/stop_request.h"
 #include "src/random/needle_random.h"
 #include "src/scene/box_of.h"
 #include "src/scene/confinement.h"
+#include "src/scene/own_bodies.h"
 #include "src/scene/rod_grid.h"
 #include "src/scene/rod_lattice.h"
 
 namespace needlework {
 namespace {
-
-// A sum with a running correction (Neumaier), so that a sum of a million terms loses no digits.
-class Sum {
- public:
-  void add(double x) {
-    const double total = total_ + x;
-    correction_ += std::abs(total_) >= std::abs(x) ? (total_ - total) + x : (x - total) + total_;
-    total_ = total;
-  }
-  double value() const { return total_ + correction_; }
-
- private:
-  double total_ = 0;
-  double correction_ = 0;
-};
 
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -73,12 +60,12 @@ struct Drawn {
 };
 
 // Takes the velocity of the centre of mass off all velocities.
-void remove_mean(std::vector<Vector>& vectors, const std::vector<SpeciesIndex>& species,
-                 const std::vector<double>& weights) {
-  std::array<Sum, 3> sums;
-  Sum total;
+template <class WeightOf>
+void remove_mean(std::vector<Vector>& vectors, const WeightOf& weight_of) {
+  std::array<CompensatedSum, 3> sums;
+  CompensatedSum total;
   for (std::size_t n = 0; n < vectors.size(); ++n) {
-    const double weight = weights[species[n]];
+    const double weight = weight_of(n);
     total.add(weight);
     for (std::size_t i = 0; i < 3; ++i) sums[i].add(weight * vectors[n][i]);
   }
@@ -89,27 +76,27 @@ void remove_mean(std::vector<Vector>& vectors, const std::vector<SpeciesIndex>& 
 }
 
 // Scales all vectors by one factor, so that they have the given mean square.
-void set_mean_square(std::vector<Vector>& vectors, const std::vector<SpeciesIndex>& species,
-                     const Drawn& drawn) {
-  if (drawn.mean_square == 0) {
+template <class WeightOf>
+void set_mean_square(std::vector<Vector>& vectors, double mean_square, const WeightOf& weight_of) {
+  if (mean_square == 0) {
     for (Vector& v : vectors) v = {};  // a factor 0 would leave signs on the zeros
     return;
   }
-  Sum sum;
+  CompensatedSum sum;
   for (std::size_t n = 0; n < vectors.size(); ++n) {
-    sum.add(drawn.weights[species[n]] * dot(vectors[n], vectors[n]));
+    sum.add(weight_of(n) * dot(vectors[n], vectors[n]));
   }
   if (sum.value() == 0) return;  // no needles
   const double factor =
-      std::sqrt(drawn.mean_square / (sum.value() / static_cast<double>(vectors.size())));
+      std::sqrt(mean_square / (sum.value() / static_cast<double>(vectors.size())));
   for (Vector& v : vectors)
     for (double& component : v) component *= factor;
 }
 
 // Draws centre and director, uniformly among those at which both tips are inside the walls.
 void draw_place(NeedleRandom& random, const std::array<Gap, 3>& gaps, const Vector& box,
-                const Species& species, Vector& centre, Vector& director) {
-  const double half_length = 0.5 * species.length, radius = 0.5 * species.diameter;
+                const BodyNumbers& body, Vector& centre, Vector& director) {
+  const double half_length = 0.5 * body.length, radius = 0.5 * body.diameter;
   const auto is_inside = [&] {
     for (std::size_t i = 0; i < 3; ++i) {
       const double reach = half_length * std::abs(director[i]) + radius;
@@ -127,35 +114,77 @@ void draw_place(NeedleRandom& random, const std::array<Gap, 3>& gaps, const Vect
   } while (!is_inside());
 }
 
+// The needles of a state: the species of each and, where those of one differ, its body.
+struct Members {
+  const Composition composition;
+  std::vector<SpeciesIndex> species;
+  std::vector<BodyNumbers> own;  ///< or empty
+
+  BodyNumbers body(std::size_t i) const {
+    return own.empty() ? numbers_of(composition[species[i]]) : own[i];
+  }
+  RodShape shape(std::size_t i) const {
+    const BodyNumbers its = body(i);
+    return {its.length, its.diameter, species[i]};
+  }
+  std::vector<RodShape> shapes() const {
+    std::vector<RodShape> out;
+    for (std::size_t i = 0; i < species.size(); ++i) out.push_back(shape(i));
+    return out;
+  }
+  // Of its mass, or moment of inertia, in that of its species.
+  double share_of_mass(std::size_t i) const {
+    return own.empty() ? 1 : own[i].mass / composition[species[i]].mass;
+  }
+  double share_of_inertia(std::size_t i) const {
+    const double of_species = own.empty() ? 0 : composition[species[i]].inertia();
+    return of_species > 0 ? own[i].inertia / of_species : 1;
+  }
+};
+
 // Draws velocities for needles of all species.
 class Velocities {
  public:
-  explicit Velocities(const Composition& composition)
-      : flight_(
-            composition, [](const Species& s) { return 3 * s.t_tr / s.mass; },
+  explicit Velocities(const Members& members)
+      : members_(members),
+        flight_(
+            members.composition, [](const Species& s) { return 3 * s.t_tr / s.mass; },
             [](const Species& s) { return s.mass; }),
         // <I w^2 / 2> = t_rot with I = m L^2 / (2 k).
         rotation_(
-            composition,
+            members.composition,
             [](const Species& s) {
               return s.turns() ? 4 * s.k * s.t_rot / (s.mass * (s.length * s.length)) : 0;
             },
             [](const Species& s) { return s.inertia(); }) {}
 
-  void draw(NeedleRandom& random, SpeciesIndex species, State& state, std::size_t i) const {
+  void draw(NeedleRandom& random, State& state, std::size_t i) const {
+    const SpeciesIndex species = members_.species[i];
+    const auto scaled = [&](double factor, double share) {
+      return share == 1 ? factor : factor / std::sqrt(share);
+    };
+    const double flight = scaled(flight_.factors[species], members_.share_of_mass(i));
     state.velocity[i] = random.normal();
-    for (double& v : state.velocity[i]) v *= flight_.factors[species];
+    for (double& v : state.velocity[i]) v *= flight;
+    const double rotation = scaled(rotation_.factors[species], members_.share_of_inertia(i));
     state.angular_velocity[i] = normal_part(random.normal(), state.orientation[i]);
-    for (double& w : state.angular_velocity[i]) w *= rotation_.factors[species];
+    for (double& w : state.angular_velocity[i]) w *= rotation;
   }
   // Makes the total momentum 0 and the temperatures those asked for.
-  void adjust(const std::vector<SpeciesIndex>& species, State& state) const {
-    if (state.size() >= 2) remove_mean(state.velocity, species, flight_.weights);
-    set_mean_square(state.velocity, species, flight_);
-    set_mean_square(state.angular_velocity, species, rotation_);
+  void adjust(State& state) const {
+    const auto mass = [&](std::size_t i) {
+      return flight_.weights[members_.species[i]] * members_.share_of_mass(i);
+    };
+    const auto inertia = [&](std::size_t i) {
+      return rotation_.weights[members_.species[i]] * members_.share_of_inertia(i);
+    };
+    if (state.size() >= 2) remove_mean(state.velocity, mass);
+    set_mean_square(state.velocity, flight_.mean_square, mass);
+    set_mean_square(state.angular_velocity, rotation_.mean_square, inertia);
   }
 
  private:
+  const Members& members_;
   Drawn flight_, rotation_;
 };
 
@@ -170,25 +199,37 @@ State without_velocities(const Scene& scene, std::size_t count) {
   return state;
 }
 
+// Those of a state that is drawn.
+Members members_of(const Scene& scene) {
+  Composition composition = scene.composition();
+  std::vector<SpeciesIndex> species = composition.in_order_of_id();
+  return {std::move(composition), std::move(species), drawn_bodies(scene)};
+}
+
+// What a state says of them.
+void enter(const Members& members, State& state) {
+  if (members.composition.is_mixture()) state.species = members.species;
+  state.own_bodies = columns_of(members.own);
+}
+
 }  // namespace
 
 State draw_needles(const Scene& scene) {
-  const Composition composition = scene.composition();
-  State state = without_velocities(scene, composition.count());
+  const Members members = members_of(scene);
+  State state = without_velocities(scene, members.species.size());
   if (state.size() == 0) return state;
-  std::vector<SpeciesIndex> species = composition.in_order_of_id();
-  const Velocities velocities(composition);
+  const Velocities velocities(members);
   const std::array<Gap, 3> gaps = gaps_of(scene);
   for (std::size_t id = 0; id < state.size(); ++id) {
     StopRequest::check_in_turn(id);
     NeedleRandom random(scene.needles.seed, id);
-    draw_place(random, gaps, state.box, composition[species[id]], state.position[id],
+    draw_place(random, gaps, state.box, members.body(id), state.position[id],
                state.orientation[id]);
-    velocities.draw(random, species[id], state, id);
+    velocities.draw(random, state, id);
   }
   StopRequest::check();
-  velocities.adjust(species, state);
-  if (composition.is_mixture()) state.species = std::move(species);
+  velocities.adjust(state);
+  enter(members, state);
   return state;
 }
 
@@ -196,50 +237,54 @@ namespace {
 
 // The ids in the order in which rods are inserted: a large one finds no place among many small
 // ones, which find theirs around it.
-std::vector<std::size_t> largest_first(const Composition& composition,
-                                       const std::vector<SpeciesIndex>& species) {
-  std::vector<std::size_t> out(species.size());
+std::vector<std::size_t> largest_first(const Members& members) {
+  std::vector<double> excluded;
+  for (std::size_t id = 0; id < members.species.size(); ++id) {
+    const BodyNumbers body = members.body(id);
+    const Species its{.length = body.length, .diameter = body.diameter};
+    excluded.push_back(excluded_volume(its, its));
+  }
+  std::vector<std::size_t> out(excluded.size());
   std::iota(out.begin(), out.end(), std::size_t{0});
-  std::ranges::stable_sort(out, std::ranges::greater(), [&](std::size_t id) {
-    return excluded_volume(composition[species[id]], composition[species[id]]);
-  });
+  std::ranges::stable_sort(out, std::ranges::greater(), [&](std::size_t id) { return excluded[id]; });
   return out;
 }
 
 }  // namespace
 
 Insertion insert_rods(const Scene& scene, std::uint64_t most_tries, double most_on_average) {
-  const Composition composition = scene.composition();
-  Insertion out{without_velocities(scene, composition.count()), 0, 0};
-  const std::vector<SpeciesIndex> species = composition.in_order_of_id();
+  const Members members = members_of(scene);
+  const std::size_t rods = members.species.size();
+  Insertion out{without_velocities(scene, rods), 0, 0};
   const std::array<Gap, 3> gaps = gaps_of(scene);
-  RodGrid grid(composition, box_at_start(scene), species.size());
-  for (const std::size_t id : largest_first(composition, species)) {
+  RodGrid grid(members.shapes(), box_at_start(scene));
+  for (const std::size_t id : largest_first(members)) {
     NeedleRandom random(scene.needles.seed, id);
     bool placed = false;
     const auto is_too_slow = [&] {
-      return static_cast<double>(out.tries) > most_on_average * static_cast<double>(species.size());
+      return static_cast<double>(out.tries) > most_on_average * static_cast<double>(rods);
     };
     for (std::uint64_t n = 0; n < most_tries && !placed && !is_too_slow(); ++n) {
       if (out.tries++ % 256 == 0) {
-        StopRequest::check({"placing rods",
-                            static_cast<double>(out.placed) / static_cast<double>(species.size())});
+        StopRequest::check(
+            {"placing rods", static_cast<double>(out.placed) / static_cast<double>(rods)});
       }
       Vector &centre = out.state.position[id], &director = out.state.orientation[id];
-      draw_place(random, gaps, out.state.box, composition[species[id]], centre, director);
-      if (grid.overlap(centre, director, species[id], 0)) continue;
-      grid.enter(centre, director, species[id]);
+      draw_place(random, gaps, out.state.box, members.body(id), centre, director);
+      if (grid.overlap(centre, director, members.shape(id), 0)) continue;
+      grid.enter(centre, director, members.shape(id));
       placed = true;
     }
     if (!placed) return out;
     ++out.placed;
   }
-  if (composition.is_mixture()) out.state.species = species;
+  enter(members, out.state);
   return out;
 }
 
 std::optional<State> place_rods_on_lattice(const Scene& scene, RodOrder order) {
-  const Composition composition = scene.composition();
+  const Members members = members_of(scene);
+  const Composition& composition = members.composition;
   const std::array<Gap, 3> gaps = gaps_of(scene);
   LatticeBox room;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -249,7 +294,8 @@ std::optional<State> place_rods_on_lattice(const Scene& scene, RodOrder order) {
     room.high[axis] = scene.needles.box[axis] + gap.high;
   }
   double length = 0;
-  for (const Species& each : composition.species()) length = std::max(length, each.length);
+  for (const Species& each : composition.species())
+    length = std::max(length, each.greatest_length());
   State state = without_velocities(scene, composition.count());
   const double diameter = composition.widest();
   const auto lattice = order == RodOrder::parallel
@@ -258,7 +304,6 @@ std::optional<State> place_rods_on_lattice(const Scene& scene, RodOrder order) {
   if (!lattice) return std::nullopt;
   state.position = lattice->position;
   state.orientation = lattice->director;
-  std::vector<SpeciesIndex> species = composition.in_order_of_id();
   // Which rod is where is drawn, so that a mixture begins mixed.
   for (std::size_t n = state.size(); n > 1; --n) {
     NeedleRandom random(scene.needles.seed, n - 1);
@@ -266,21 +311,23 @@ std::optional<State> place_rods_on_lattice(const Scene& scene, RodOrder order) {
     std::swap(state.position[n - 1], state.position[other]);
     std::swap(state.orientation[n - 1], state.orientation[other]);
   }
-  if (composition.is_mixture()) state.species = std::move(species);
+  enter(members, state);
   return state;
 }
 
 void draw_velocities(const Scene& scene, State& state) {
-  const Composition composition = scene.composition();
   if (state.size() == 0) return;
-  const std::vector<SpeciesIndex> species = composition.in_order_of_id(state.species);
-  const Velocities velocities(composition);
+  Composition composition = scene.composition();
+  std::vector<SpeciesIndex> species = composition.in_order_of_id(state.species);
+  std::vector<BodyNumbers> own = own_bodies_of(composition, state);
+  const Members members{std::move(composition), std::move(species), std::move(own)};
+  const Velocities velocities(members);
   for (std::size_t id = 0; id < state.size(); ++id) {
     StopRequest::check_in_turn(id);
     NeedleRandom random(scene.needles.seed, id, RandomFor::velocities_of_rods, 0);
-    velocities.draw(random, species[id], state, id);
+    velocities.draw(random, state, id);
   }
-  velocities.adjust(species, state);
+  velocities.adjust(state);
 }
 
 }  // namespace needlework

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "kernels/rod_contact.h"
@@ -38,24 +39,20 @@ double gap_of(const kernels::RodPair& pair, const Vec3d& apart, double reach) {
 
 }  // namespace
 
-RodGrid::RodGrid(const Composition& composition, const Box& box, std::size_t rods)
-    : composition_(composition), box_(box) {
-  for (const Species& species : composition.species()) {
-    const auto found = std::ranges::find(levels_, species.extent(), &Level::extent);
-    level_of_species_.push_back(static_cast<std::size_t>(found - levels_.begin()));
-    if (found == levels_.end()) levels_.emplace_back().extent = species.extent();
-  }
-  for (std::size_t n = 0; n < levels_.size(); ++n) {
-    Level& level = levels_[n];
-    // A species alone may have no count.
-    std::uint64_t count = composition.size() == 1 ? rods : 0;
-    for (std::size_t s = 0; s < composition.size(); ++s) {
-      if (level_of_species_[s] == n) count += composition[s].count;
-    }
+RodGrid::RodGrid(std::span<const RodShape> rods, const Box& box) : box_(box) {
+  std::vector<double> extents;
+  for (const RodShape& rod : rods) extents.push_back(rod.extent());
+  std::ranges::sort(extents, std::ranges::greater());
+  for (auto first = extents.begin(); first != extents.end();) {
+    Level& level = levels_.emplace_back();
+    level.extent = *first;
+    const auto last = std::find_if(
+        first, extents.end(), [&](double extent) { return extent <= 0.5 * level.extent; });
+    const auto count = static_cast<double>(last - first);
+    first = last;
     // About one rod in each cell, and none shorter than what is in contact.
     const double side =
-        std::max(level.extent * (1 + 0x1p-20),
-                 std::cbrt(box.volume() / static_cast<double>(std::max<std::uint64_t>(1, count))));
+        std::max(level.extent * (1 + 0x1p-20), std::cbrt(box.volume() / count));
     std::int64_t cells = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       level.counts[axis] = std::max<std::int64_t>(
@@ -64,7 +61,13 @@ RodGrid::RodGrid(const Composition& composition, const Box& box, std::size_t rod
     }
     level.first.assign(static_cast<std::size_t>(cells), none);
   }
-  rods_.reserve(rods);
+  rods_.reserve(rods.size());
+}
+
+RodGrid::Level& RodGrid::level_of(const RodShape& rod) {
+  const auto found = std::ranges::find_if(
+      levels_, [&](const Level& level) { return rod.extent() > 0.5 * level.extent; });
+  return *found;
 }
 
 RodGrid::Cell RodGrid::cell_of(const Level& level, const Vec3d& r) const {
@@ -135,40 +138,38 @@ void RodGrid::for_each_near(const Level& level, const Vec3d& r, double reach,
 
 template <class Visit>
 void RodGrid::visit_overlaps(const std::array<double, 3>& centre,
-                             const std::array<double, 3>& director, SpeciesIndex species,
+                             const std::array<double, 3>& director, const RodShape& rod,
                              double tolerance, Visit&& visit) const {
   const kernels::Flight flight = at_rest(centre, director);
-  const Species& its = composition_[species];
   const auto compare = [&](std::uint32_t i) {
     const Rod& other = rods_[i];
     const Vec3d apart = flight.r - other.flight.r;
     const Vec3dd shift = box_.image<DoubleDouble>(box_.nearest(apart)).place;
     const Vec3d nearest = apart - to_double(shift);
-    const Species& others = composition_[other.species];
-    const double distance = composition_.contact_distance(species, other.species);
-    const double reach = 0.5 * (its.length + others.length) + distance;
+    const double distance = 0.5 * (rod.diameter + other.shape.diameter);
+    const double reach = 0.5 * (rod.length + other.shape.length) + distance;
     if (dot(nearest, nearest) >= reach * reach) return;
     kernels::RodPair pair;
     pair.first = &flight;
     pair.second = &other.flight;
     pair.shift = shift;
-    pair.half_first = 0.5 * its.length;
-    pair.half_second = 0.5 * others.length;
+    pair.half_first = 0.5 * rod.length;
+    pair.half_second = 0.5 * other.shape.length;
     pair.distance = distance;
     const double gap = gap_of(pair, nearest, reach);
     if (gap < -tolerance) visit(Overlap{i, distance + gap, distance});
   };
   for (const Level& level : levels_) {
     if (level.entered == 0) continue;
-    for_each_near(level, flight.r, 0.5 * (its.extent() + level.extent), compare);
+    for_each_near(level, flight.r, 0.5 * (rod.extent() + level.extent), compare);
   }
 }
 
 std::optional<RodGrid::Overlap> RodGrid::overlap(const std::array<double, 3>& centre,
                                                  const std::array<double, 3>& director,
-                                                 SpeciesIndex species, double tolerance) const {
+                                                 const RodShape& rod, double tolerance) const {
   std::optional<Overlap> first;
-  visit_overlaps(centre, director, species, tolerance, [&](const Overlap& overlap) {
+  visit_overlaps(centre, director, rod, tolerance, [&](const Overlap& overlap) {
     if (!first || overlap.other < first->other) first = overlap;
   });
   return first;
@@ -176,18 +177,18 @@ std::optional<RodGrid::Overlap> RodGrid::overlap(const std::array<double, 3>& ce
 
 std::vector<RodGrid::Overlap> RodGrid::overlaps(const std::array<double, 3>& centre,
                                                 const std::array<double, 3>& director,
-                                                SpeciesIndex species, double tolerance) const {
+                                                const RodShape& rod, double tolerance) const {
   std::vector<Overlap> all;
-  visit_overlaps(centre, director, species, tolerance,
+  visit_overlaps(centre, director, rod, tolerance,
                  [&](const Overlap& overlap) { all.push_back(overlap); });
   return all;
 }
 
 void RodGrid::enter(const std::array<double, 3>& centre, const std::array<double, 3>& director,
-                    SpeciesIndex species) {
+                    const RodShape& shape) {
   const auto i = static_cast<std::uint32_t>(rods_.size());
-  Rod& rod = rods_.emplace_back(Rod{at_rest(centre, director), species, none});
-  Level& level = levels_[level_of_species_[species]];
+  Rod& rod = rods_.emplace_back(Rod{at_rest(centre, director), shape, none});
+  Level& level = level_of(shape);
   std::uint32_t& first = level.first[level.index_of(cell_of(level, rod.flight.r))];
   rod.next = first;
   first = i;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "kernels/contact_function.h"
@@ -13,12 +14,20 @@
 
 namespace needlework {
 
+/// What a rod is, as far as overlaps go.
+struct RodShape {
+  double length = 0, diameter = 0;  ///< [L]
+  SpeciesIndex species = 0;
+
+  double extent() const { return length + diameter; }  ///< from end to end [L]
+};
+
 /// Rods in a box, entered one after the other.
 class RodGrid {
  public:
-  /// `composition` must outlive the grid. Every edge of the box is at least twice the largest
-  /// extent along periodic axes.
-  RodGrid(const Composition& composition, const Box& box, std::size_t rods);
+  /// For these rods. Every edge of the box is at least twice the largest extent along periodic
+  /// axes.
+  RodGrid(std::span<const RodShape> rods, const Box& box);
 
   /// A rod that overlaps one that has been entered.
   struct Overlap {
@@ -28,29 +37,29 @@ class RodGrid {
   };
   /// The first rod entered that this one overlaps by more than `tolerance`. [L]
   std::optional<Overlap> overlap(const std::array<double, 3>& centre,
-                                 const std::array<double, 3>& director, SpeciesIndex species,
+                                 const std::array<double, 3>& director, const RodShape& rod,
                                  double tolerance) const;
   /// All of them, in no order.
   std::vector<Overlap> overlaps(const std::array<double, 3>& centre,
-                                const std::array<double, 3>& director, SpeciesIndex species,
+                                const std::array<double, 3>& director, const RodShape& rod,
                                 double tolerance) const;
   void enter(const std::array<double, 3>& centre, const std::array<double, 3>& director,
-             SpeciesIndex species);
+             const RodShape& rod);
 
  private:
   template <class Visit>
   void visit_overlaps(const std::array<double, 3>& centre, const std::array<double, 3>& director,
-                      SpeciesIndex species, double tolerance, Visit&& visit) const;
+                      const RodShape& rod, double tolerance, Visit&& visit) const;
 
   struct Rod {
     kernels::Flight flight;
-    SpeciesIndex species;
+    RodShape shape;
     std::uint32_t next;  ///< in the same cell, or none
   };
   using Cell = std::array<std::int64_t, 3>;
-  /// The cells of the rods of one extent.
+  /// The cells of rods of about one extent.
   struct Level {
-    double extent = 0;  ///< [L]
+    double extent = 0;  ///< the largest; others are longer than half of it [L]
     std::size_t entered = 0;
     Cell counts{};
     std::vector<std::uint32_t> first;  ///< in each cell
@@ -62,10 +71,10 @@ class RodGrid {
   template <class Visit>
   void for_each_near(const Level& level, const Vec3d& r, double reach, const Visit& visit) const;
 
-  const Composition& composition_;
+  Level& level_of(const RodShape& rod);
+
   Box box_;
-  std::vector<Level> levels_;
-  std::vector<std::size_t> level_of_species_;
+  std::vector<Level> levels_;  ///< the longest rods first
   std::vector<Rod> rods_;
 };
 

@@ -6,9 +6,16 @@
 
 namespace needlework {
 
+void transfer(Archive& archive, Sizes& sizes) {
+  archive(sizes.product, sizes.square, sizes.cube, sizes.volume, sizes.least_extent,
+          sizes.greatest_extent, sizes.greatest_length, sizes.greatest_diameter,
+          sizes.least_diameter, sizes.least_mass, sizes.least_inertia);
+}
+
 void transfer(Archive& archive, Scene::Species& species) {
   visit_species(species,
                 [&](std::string_view, std::string_view, auto& member) { archive(member); });
+  archive(species.sizes);
 }
 
 void transfer(Archive& archive, Scene::Pair& pair) {

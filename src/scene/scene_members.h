@@ -10,10 +10,11 @@ namespace needlework {
 // Each structured binding names all members of its struct, so that this file does not compile when
 // one is added and forgotten here.
 
-/// Calls visit(section, key, member) for each member of Scene::Species, constant or not.
+/// Calls visit(section, key, member) for each member of Scene::Species, constant or not, but for
+/// `sizes`, which no key gives.
 template <class Species, class Visit>
 void visit_species(Species& species, Visit&& visit) {
-  auto& [name, count, length, mass, k, t_tr, t_rot, diameter, given_inertia] = species;
+  auto& [name, count, length, mass, k, t_tr, t_rot, diameter, given_inertia, sizes] = species;
   visit("species", "name", name);
   visit("species", "count", count);
   visit("species", "length", length);
@@ -23,6 +24,7 @@ void visit_species(Species& species, Visit&& visit) {
   visit("species", "t_rot", t_rot);
   visit("species", "diameter", diameter);
   visit("species", "inertia", given_inertia);
+  static_cast<void>(sizes);
 }
 
 /// The same for each member of Scene::Pair.

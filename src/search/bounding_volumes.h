@@ -64,7 +64,7 @@ struct BoundingVolumes {
 
   ClassCells& class_of(Needle i) const {
     if (classes.size() == 1) return *classes.front();
-    return *classes[class_of_extent(sizes, 2 * gas.body(i).reach())];
+    return *classes[class_of_extent(sizes, 2 * gas.reach(i))];
   }
   /// The cell of the common grid in which needle i has been placed, in the frame of its record.
   Cell common_cell_of(Needle i) const { return is_of_one_grid_ ? places[i].cell : cell_around(i); }

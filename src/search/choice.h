@@ -30,12 +30,23 @@ inline double density_by_mean(double density, const Composition& composition) {
   return density * (share * share * share);
 }
 
+/// Means over bodies, by which they exclude each other.
+struct MeanSizes {
+  double length = 0, diameter = 0;  ///< [L]
+  double product = 0, square = 0;   ///< of both, and of the diameter [L^2]
+
+  static MeanSizes of(const Species& all) {
+    return {all.length, all.diameter, all.product(), all.square()};
+  }
+};
+
 /// The area of the body that two rods exclude, averaged over their directions, over that of needles
 /// of length 1: L^2 for needles, and more by the caps and the width.
 /// (2 L^2 sin + 4 pi D L + 4 pi D^2 for two alike.) [L^2]
-inline double excluded_area(const Species& a, const Species& b) {
-  const double width = 0.5 * (a.diameter + b.diameter);
-  return a.length * b.length + 4 * width * (a.length + b.length) + 8 * (width * width);
+inline double excluded_area(const MeanSizes& a, const MeanSizes& b) {
+  const double sides =
+      a.product + b.product + a.length * b.diameter + a.diameter * b.length;
+  return a.length * b.length + 2 * sides + 2 * (a.square + 2 * a.diameter * b.diameter + b.square);
 }
 
 /// By how much neighbours are more frequent in contact than at low density, as Carnahan's and
@@ -61,7 +72,8 @@ inline double crowding_by_width(double density, const Composition& composition) 
   double area = 0, square = 0;
   for (const Species& each : composition.species()) {
     const double n = static_cast<double>(each.count);
-    area += n * excluded_area(each, each);
+    const MeanSizes sizes = MeanSizes::of(each);
+    area += n * excluded_area(sizes, sizes);
     square += n * (each.extent() * each.extent());
   }
   return square > 0 ? area / square * crowding_by_packing(density, composition) : 1;

@@ -19,7 +19,7 @@ bool have_one_width(const Gas& gas) {
 ContactDistances::ContactDistances(const Gas& gas, double per_length)
     : margin_(static_cast<float>(gas.margin * per_length)) {
   if (gas.size() == 0) return;
-  same_half_ = static_cast<float>(gas.body(Needle(0)).radius * per_length);
+  same_half_ = static_cast<float>(gas.radius(Needle(0)) * per_length);
   if (have_one_width(gas)) return;
   half_widths_.resize(gas.size());
   for (Needle i{0}; i < gas.size(); ++i) {

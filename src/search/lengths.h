@@ -20,8 +20,8 @@ concept Lengths = requires(const L& lengths, Needle i) {
 /// Lengths from the bodies, which is right for any gas.
 struct BodyLengths {
   const Gas& gas;
-  double half_length(Needle i) const { return gas.body(i).half_length; }
-  double reach(Needle i) const { return gas.body(i).reach(); }
+  double half_length(Needle i) const { return gas.half_length(i); }
+  double reach(Needle i) const { return gas.reach(i); }
 };
 
 static_assert(Lengths<BodyLengths>);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
 
 #include "src/search/choice.h"
 #include "src/search/lengths.h"
@@ -22,12 +21,6 @@ constexpr double most_over_mean = 2.1;
 // that from 250 on.
 constexpr double most_seen_for_sizes = 150;
 
-std::vector<std::size_t> counts_of_species(const Gas& gas) {
-  std::vector<std::size_t> out(gas.composition.size());
-  for (const Record& record : gas.records) ++out[record.species];
-  return out;
-}
-
 // How many spheres, so many in a volume, a search sees that looks as far as `reach` from its path,
 // in cells of about eight of them.
 double seen_within(double reach, double density) {
@@ -44,23 +37,25 @@ bool are_alike(const Gas& gas, double longest, double lengths, double count) {
          most_seen_for_sizes;
 }
 
-double extent_of(const Body& body) { return 2 * body.reach(); }
-
 // Puts needles into classes, without what is chosen for these.
 std::vector<SizeClass> grouped_by_length(const Gas& gas) {
-  std::map<double, std::size_t, std::greater<>> needles_of;  // by extent, the longest first
-  for (Needle i{0}; i < gas.size(); ++i) ++needles_of[extent_of(gas.body(i))];
+  std::vector<double> extents;
+  for (Needle i{0}; i < gas.size(); ++i) extents.push_back(2 * gas.reach(i));
+  std::ranges::sort(extents, std::ranges::greater());
   std::vector<SizeClass> out;
   double lengths = 0;  // sum of those in the last class
-  for (const auto& [length, count] : needles_of) {
-    const double added = length * static_cast<double>(count);
-    // Named, as clang 14 captures no structured bindings.
-    const auto fits = [&, count = count](const SizeClass& group) {
+  for (auto first = extents.begin(); first != extents.end();) {
+    const double extent = *first;
+    const auto last = std::find_if(first, extents.end(), [&](double e) { return e != extent; });
+    const auto count = static_cast<std::size_t>(last - first);
+    first = last;
+    const double added = extent * static_cast<double>(count);
+    const auto fits = [&](const SizeClass& group) {
       return are_alike(gas, group.longest, lengths + added,
                        static_cast<double>(group.count + count));
     };
     if (out.empty() || !fits(out.back())) {
-      out.emplace_back().longest = length;
+      out.emplace_back().longest = extent;
       lengths = 0;
     }
     lengths += added;
@@ -69,14 +64,22 @@ std::vector<SizeClass> grouped_by_length(const Gas& gas) {
   return out;
 }
 
-// The longest axis and the largest diameter of each class.
-void measure_bodies(const Gas& gas, std::vector<SizeClass>& classes) {
+// The longest axis and the largest diameter of each class, and the means of its bodies.
+std::vector<MeanSizes> measure_bodies(const Gas& gas, std::vector<SizeClass>& classes) {
+  std::vector<MeanSizes> means(classes.size());
   for (Needle i{0}; i < gas.size(); ++i) {
-    const Body& body = gas.body(i);
-    SizeClass& its = classes[class_of_extent(classes, extent_of(body))];
-    its.axis = std::max(its.axis, body.length());
-    its.diameter = std::max(its.diameter, 2 * body.radius);
+    const double length = 2 * gas.half_length(i), diameter = 2 * gas.radius(i);
+    const std::size_t n = class_of_extent(classes, 2 * gas.reach(i));
+    SizeClass& its = classes[n];
+    its.axis = std::max(its.axis, length);
+    its.diameter = std::max(its.diameter, diameter);
+    const double share = 1 / static_cast<double>(its.count);
+    means[n].length += share * length;
+    means[n].diameter += share * diameter;
+    means[n].product += share * (length * diameter);
+    means[n].square += share * (diameter * diameter);
   }
+  return means;
 }
 
 // From this crowding on, capsules are cheaper than cells. A little more than in a gas of one
@@ -85,24 +88,15 @@ constexpr double least_for_capsules = 3;
 
 // Needles per L^3 in a gas of one length in which the needles of this class, L long, would collide
 // as often: by the areas of the bodies that two of them exclude, see crowding_by_width().
-double crowding_of_class(const Gas& gas, const std::vector<SizeClass>& classes, std::size_t number,
-                         double density) {
-  const Composition& composition = gas.composition;
-  const std::vector<std::size_t> counts = counts_of_species(gas);
-  double area = 0, members = 0;
-  for (std::size_t a = 0; a < composition.size(); ++a) {
-    const auto count = static_cast<double>(counts[a]);
-    const double extent = extent_of(gas.body_of(composition[a]));
-    if (count == 0 || class_of_extent(classes, extent) != number) continue;
-    members += count;
-    for (std::size_t b = 0; b < composition.size(); ++b) {
-      area +=
-          count * static_cast<double>(counts[b]) * excluded_area(composition[a], composition[b]);
-    }
+double crowding_of_class(const Gas& gas, const std::vector<SizeClass>& classes,
+                         const std::vector<MeanSizes>& means, std::size_t number, double density) {
+  double area = 0;
+  for (std::size_t other = 0; other < classes.size(); ++other) {
+    area += static_cast<double>(classes[other].count) * excluded_area(means[number], means[other]);
   }
-  const double square = gas.longest * gas.longest, all = static_cast<double>(gas.size()) * members;
+  const double square = gas.longest * gas.longest, all = static_cast<double>(gas.size());
   return density * (area / (all * square)) * (classes[number].longest / gas.longest) *
-         crowding_by_packing(density, composition);
+         crowding_by_packing(density, gas.composition);
 }
 
 }  // namespace
@@ -110,7 +104,8 @@ double crowding_of_class(const Gas& gas, const std::vector<SizeClass>& classes, 
 std::vector<SizeClass> size_classes(const Gas& gas, const SearchSetup& setup, BoundingVolume kind) {
   const double density = setup.density.value_or(reduced_density(gas));
   std::vector<SizeClass> out;
-  if (gas.composition.is_mixture() && !setup.cell_side && !setup.capsule_radius)
+  const bool may_differ = gas.composition.is_mixture() || gas.has_own_bodies();
+  if (may_differ && !setup.cell_side && !setup.capsule_radius)
     out = grouped_by_length(gas);
   const double by_mean = density_by_mean(density, gas.composition),
                crowd = crowding(density, gas.composition),
@@ -130,13 +125,13 @@ std::vector<SizeClass> size_classes(const Gas& gas, const SearchSetup& setup, Bo
     }
     return out;
   }
-  measure_bodies(gas, out);
+  const std::vector<MeanSizes> means = measure_bodies(gas, out);
   // Cells of few needles may be emptier than others: no grid is coarser than this, as the cells
   // that threads lock are those of the coarsest one.
   const double widest = std::max(gas.longest, length * auto_cell_side(by_mean, crowd));
   for (std::size_t n = 0; n < out.size(); ++n) {
     SizeClass& each = out[n];
-    const double its_crowd = crowding_of_class(gas, out, n, density);
+    const double its_crowd = crowding_of_class(gas, out, means, n, density);
     const double share = static_cast<double>(each.count) / static_cast<double>(gas.size());
     const double cube = each.longest / gas.longest;
     const double own_density = density * share * (cube * cube * cube);

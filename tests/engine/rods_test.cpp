@@ -30,12 +30,14 @@ using test::until_time;
 // Rods of this state that overlap by more than `tolerance`.
 int overlaps(const Scene& scene, const State& state, double tolerance) {
   const Composition composition = scene.composition();
-  RodGrid grid(composition, box_of(state), state.size());
+  std::vector<RodShape> shapes;
+  for (const SpeciesIndex its : composition.in_order_of_id(state.species))
+    shapes.push_back({composition[its].length, composition[its].diameter, its});
+  RodGrid grid(shapes, box_of(state));
   int out = 0;
-  const auto species = composition.in_order_of_id(state.species);
   for (std::size_t i = 0; i < state.size(); ++i) {
-    out += grid.overlap(state.position[i], state.orientation[i], species[i], tolerance).has_value();
-    grid.enter(state.position[i], state.orientation[i], species[i]);
+    out += grid.overlap(state.position[i], state.orientation[i], shapes[i], tolerance).has_value();
+    grid.enter(state.position[i], state.orientation[i], shapes[i]);
   }
   return out;
 }

@@ -23,6 +23,7 @@ SceneSection output_section();
 inline constexpr ValueRange range_of_k{1e-9, 1e9};
 inline constexpr const char* expected_k = "a number > 0 (from 1e-9 to 1e9; 6 is a uniform rod)";
 inline constexpr ValueRange lengths{1e-6, 1e6, true};
+inline constexpr ValueRange masses{1e-100, 1e100};
 inline constexpr const char* expected_diameter =
     "a diameter >= 0 (0 for thin needles, or from 1e-6 to 1e6)";
 inline constexpr ValueRange counts_of_needles{0, static_cast<double>(most_needles)};

@@ -190,7 +190,7 @@ SceneSection species_section() {
                [](Scene& s, V v, R r) { return store(s.species.back().diameter, number(v, r)); }},
               {"mass",
                Aspect::bodies,
-               {1e-100, 1e100},
+               masses,
                "a number > 0 (from 1e-100 to 1e100)",
                [](Scene& s, V v, R r) { return store(s.species.back().mass, number(v, r)); }},
               {"k", Aspect::bodies, range_of_k, expected_k,
