@@ -3,12 +3,27 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "needlework/distribution.h"
+
 namespace needlework {
+
+/// How numbers of bodies are drawn that differ within a species, by seed and id. What is absent is
+/// the number of the species.
+struct DrawnSizes {
+  std::optional<Distribution> length = {}, diameter = {}, mass = {}, k = {}, inertia = {};
+  std::optional<double> density = {};  ///< the mass: of thin needles per length [m / L], of rods and
+                                       ///< spheres, whose inertia is then that of homogeneous ones
+                                       ///< unless k is given, per volume [m / L^3]
+  std::optional<double> aspect = {};   ///< the diameter: length over diameter
+
+  friend bool operator==(const DrawnSizes&, const DrawnSizes&) = default;
+};
 
 /// What bodies of a species are whose sizes differ: means over them, and how far they reach.
 struct Sizes {
@@ -39,6 +54,9 @@ struct Species {
   /// The moment of inertia as a scene gives it in place of k, which then follows. [m L^2]
   std::optional<double> given_inertia = {};
 
+  DrawnSizes drawn = {};
+  bool fixed = false;    ///< of infinite mass: they stay where they are, and do not meet each other
+  bool overlap = false;  ///< fixed ones may overlap each other
   /// Where each body has numbers of its own, what else is known of all: length, diameter and mass
   /// are then means, and k is that of the mean moment of inertia.
   std::optional<Sizes> sizes = {};
@@ -52,6 +70,10 @@ struct Species {
   double greatest_extent() const { return sizes ? sizes->greatest_extent : extent(); }
   double greatest_diameter() const { return sizes ? sizes->greatest_diameter : diameter; }
   double greatest_length() const { return sizes ? sizes->greatest_length : length; }
+  /// The mass as files and other programs have it: infinite of fixed ones. [m]
+  double mass_or_infinity() const {
+    return fixed ? std::numeric_limits<double>::infinity() : mass;
+  }
   double volume() const;  ///< the mean [L^3]
   /// The means of length times diameter, and of the diameter squared. [L^2]
   double product() const { return sizes ? sizes->product : length * diameter; }
@@ -104,6 +126,8 @@ class Composition {
   void set_species(std::size_t index, const Species& species) { species_[index] = species; }
 
   std::uint64_t count() const;  ///< number of needles of all species
+  std::uint64_t fixed() const;  ///< of those that do not move
+  bool has_fixed() const { return fixed() > 0; }
   /// The species that all needles are of, where there is but one with needles. A species alone is
   /// that, whatever its count.
   std::optional<std::size_t> only() const;
@@ -113,7 +137,7 @@ class Composition {
   /// Whether these are rods, which collide where their axes are their mean diameter apart.
   bool has_width() const { return widest() > 0; }
   bool are_spheres() const;  ///< whether no body has an axis
-  /// Share of the bodies that turn, over which rotational temperatures are averaged; 1 of none.
+  /// Share of the moving bodies that turn, over which rotational temperatures are averaged; 1 of none.
   double turning_share() const;
   /// The distance of the axes of two rods in contact. [L]
   double contact_distance(std::size_t a, std::size_t b) const {

@@ -26,6 +26,12 @@ std::uint64_t Composition::count() const {
   return out;
 }
 
+std::uint64_t Composition::fixed() const {
+  std::uint64_t out = 0;
+  for (const Species& each : species_) out += each.fixed ? each.count : 0;
+  return out;
+}
+
 std::vector<SpeciesIndex> Composition::in_order_of_id(
     const std::vector<SpeciesIndex>& given) const {
   if (!given.empty()) return given;
@@ -83,8 +89,8 @@ bool Composition::has_own_sizes() const {
 
 double Composition::turning_share() const {
   std::uint64_t turning = 0;
-  for (const Species& each : species_) turning += each.turns() ? each.count : 0;
-  const std::uint64_t all = count();
+  for (const Species& each : species_) turning += each.turns() && !each.fixed ? each.count : 0;
+  const std::uint64_t all = count() - fixed();
   return all > 0 ? static_cast<double>(turning) / static_cast<double>(all) : 1;
 }
 

@@ -112,6 +112,7 @@ std::vector<SumsOfSquares> sums_of_squares(const Gas& gas, Time now, int threads
   std::vector<SumsOfSquares> out(gas.composition.size());
   if (gas.size() == 0) return out;
   for (std::size_t species = 0; species < out.size(); ++species) {
+    if (gas.composition[species].fixed) continue;
     const auto [v2, w2] = with_motion(gas, now, species, [&](const auto& of) {
       return exact_sums(gas.records, threads, [&](const Record& a) {
         if (a.species != species) return std::array{0.0, 0.0};
@@ -132,7 +133,7 @@ FlightCarries flight_carries(const Gas& gas, Needle i, Time now) {
   // The flow is faster where a needle gets to.
   Vec3d gain = gas.gravity;
   if (gas.shear) gain.x -= gas.shear->rate() * c.y;
-  return {gas.body(i).mass, carried(c, gain, gas.clock.difference(now, record.time))};
+  return {gas.is_fixed(i) ? 0 : gas.body(i).mass, carried(c, gain, gas.clock.difference(now, record.time))};
 }
 
 Tensor carried_in_flights(const Gas& gas, Time now, int threads) {
@@ -158,7 +159,7 @@ std::vector<SpeciesTotals> species_totals(const Gas& gas, const std::vector<Sums
     const Species& species = gas.composition[index];
     SpeciesTotals& of = out.emplace_back();
     of.count = species.count;
-    if (of.count == 0) continue;
+    if (of.count == 0 || species.fixed) continue;
     const double count = static_cast<double>(species.count);
     of.t_tr = species.mass * sums[index].v2 / (3 * count);
     if (!species.turns()) continue;
@@ -170,12 +171,12 @@ std::vector<SpeciesTotals> species_totals(const Gas& gas, const std::vector<Sums
 
 namespace {
 
-// Means over all needles; T_rot of those that turn.
+// Means over all needles that move; T_rot of those that turn. Fixed ones have temperatures of 0.
 void set_temperatures(const Gas& gas, const std::vector<SumsOfSquares>& sums, Totals& out) {
-  if (gas.size() == 0) return;
+  if (gas.moving() == 0) return;
   out.t_tr = out.t_rot = 0;
   for (const SpeciesTotals& of : species_totals(gas, sums)) {
-    const double share = static_cast<double>(of.count) / static_cast<double>(gas.size());
+    const double share = static_cast<double>(of.count) / static_cast<double>(gas.moving());
     out.t_tr += share * of.t_tr;
     out.t_rot += share * of.t_rot;
   }
@@ -203,7 +204,7 @@ double translational_temperature(const Gas& gas, const std::vector<SumsOfSquares
 double energy_of_motion(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
   Totals totals;
   set_temperatures(gas, sums, totals);
-  return totals.energy * static_cast<double>(gas.size());
+  return totals.energy * static_cast<double>(gas.moving());
 }
 
 double energy_of(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
@@ -226,6 +227,10 @@ Totals totals_of(const Gas& gas, Time now, int threads) {
   if (gas.size() == 0) return out;
   std::vector<SumsOfSquares> sums;
   for (std::size_t species = 0; species < gas.composition.size(); ++species) {
+    if (gas.composition[species].fixed) {
+      sums.emplace_back();
+      continue;
+    }
     // All at once: reading the records takes most of the time.
     const auto [v2, w2, x, y, z] = with_motion(gas, now, species, [&](const auto& of) {
       return exact_sums(gas.records, threads, [&](const Record& a) {
@@ -246,7 +251,7 @@ Totals totals_of(const Gas& gas, Time now, int threads) {
   set_temperatures(gas, sums, out);
   if (gas.falls) {
     const double energy = potential_of(gas, sums) - energy_of_low_edges(gas);
-    out.energy += energy / static_cast<double>(gas.size());
+    out.energy += energy / static_cast<double>(gas.moving());
   }
   return out;
 }
@@ -270,9 +275,10 @@ double mean_free_time_of(const Gas& gas, const std::vector<SumsOfSquares>& sums)
 }
 
 GasNumbers numbers_of(const Gas& gas, const std::vector<SumsOfSquares>& sums, bool moves) {
-  GasNumbers out{.count = static_cast<double>(gas.size()), .species = {}, .moves = moves};
+  GasNumbers out{.count = static_cast<double>(gas.moving()), .species = {}, .moves = moves};
   for (std::size_t index = 0; index < sums.size(); ++index) {
     const Species& species = gas.composition[index];
+    if (species.fixed) continue;
     out.species.push_back({.length = species.length,
                            .mass = species.mass,
                            .k = species.k,

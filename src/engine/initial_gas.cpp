@@ -67,8 +67,9 @@ void require_same_bodies(const Composition& composition, const Bodies& bodies) {
     check_size(expected.size(), composition.size(), "species");
     for (std::size_t n = 0; n < expected.size(); ++n) {
       const double given = composition[n].*value;
-      const bool counts =
-          (composition[n].turns() || value != &Species::k) && !composition[n].sizes;
+      const Species& its = composition[n];
+      const bool is_fixed = its.fixed && std::isinf(expected[n]) && value == &Species::mass;
+      const bool counts = (its.turns() || value != &Species::k) && !its.sizes && !is_fixed;
       if (!counts || std::abs(given - expected[n]) <= 1e-12 * expected[n]) continue;
       throw InputError(fmt::format("state: bodies of {} = {}: expected {}, as in the scene", key,
                                    expected[n], given));
@@ -133,6 +134,19 @@ void set_species(Gas& gas, const State& initial, const std::vector<std::size_t>&
 void set_own_bodies(Gas& gas, const State& initial, const std::vector<std::size_t>& rows) {
   const std::vector<BodyNumbers> bodies = own_bodies_of(gas.composition, initial);
   for (std::size_t i = 0; i < bodies.size(); ++i) gas.own_bodies[i] = bodies[rows[i]];
+}
+
+// That fixed needles are at rest.
+void require_fixed_at_rest(const Gas& gas) {
+  if (!gas.composition.has_fixed()) return;
+  for (Needle i{0}; i < gas.size(); ++i) {
+    if (!gas.is_fixed(i)) continue;
+    const kernels::Flight& flight = gas.records[i].flight;
+    for (const auto& [what, value] :
+         {std::pair("velocity", flight.v), std::pair("angular velocity", flight.w)}) {
+      if (!(value == Vec3d{})) refuse_vector(value, what, gas.ids[i], "0, as its species is fixed");
+    }
+  }
 }
 
 // That tips are inside the walls, as they are at the start, to within rounding.
@@ -326,6 +340,7 @@ Gas make_gas(const Scene& scene, const State& initial) {
   }
   set_species(gas, initial, order);
   set_own_bodies(gas, initial, order);
+  require_fixed_at_rest(gas);
   require_steady_flow(gas);
   require_inside(scene, gas);
   require_room_for_rods(gas);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 
 #include "kernels/free_flight.h"
@@ -17,12 +18,13 @@ void copy_own_bodies(const Gas& gas, const std::vector<Needle>& order, OwnBodies
   const std::size_t rows = gas.has_own_bodies() ? order.size() : 0;
   for (std::vector<double>* column : {&own.length, &own.diameter, &own.mass, &own.inertia})
     column->resize(rows);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (std::size_t row = 0; row < rows; ++row) {
     const BodyNumbers& body = gas.own_bodies[order[row]];
     own.length[row] = body.length;
     own.diameter[row] = body.diameter;
-    own.mass[row] = body.mass;
-    own.inertia[row] = body.inertia;
+    own.mass[row] = gas.is_fixed(order[row]) ? infinity : body.mass;
+    own.inertia[row] = gas.is_fixed(order[row]) && body.length > 0 ? infinity : body.inertia;
   }
 }
 

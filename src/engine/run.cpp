@@ -279,7 +279,7 @@ Totals Run::totals() const {
 
 EnergyBudget Run::energy_budget() const {
   EnergyBudget out;
-  const double needles = static_cast<double>(std::max<std::size_t>(gas.size(), 1));
+  const double needles = static_cast<double>(std::max<std::size_t>(gas.moving(), 1));
   out.pairs = energy_shares.pairs(energy, tally) / needles;
   out.velocities_set = energy_shares.velocities_set() / needles;
   if (kicks) out.kicks = energy_shares.kicks() / needles;
@@ -400,12 +400,16 @@ ReplacedRecords Run::kick() {
   std::vector<Kicks::Change> changes(gas.size());
   kernels::in_parallel(gas.size(), team.threads(), [&](std::size_t begin, std::size_t end) {
     for (Needle i(begin); i < end; ++i) {
+      if (gas.is_fixed(i)) continue;
       changes[i] = kicks->change(gas.ids[i], number, gas.present(i, now).u);
       if (!gas.body(i).turns()) changes[i].angular_velocity = {};
     }
   });
+  // Fixed bodies take up any momentum, so that the sum is not kept.
+  const bool has_fixed = gas.composition.has_fixed();
   const auto [x, y, z] = exact_sums(gas.records, team.threads(), [&](const Record& record) {
     const Needle i(static_cast<std::size_t>(&record - gas.records.data()));
+    if (has_fixed) return std::array{0.0, 0.0, 0.0};
     const Vec3d momentum = changes[i].velocity * gas.body(i).mass;
     return std::array{momentum.x, momentum.y, momentum.z};
   });

@@ -40,7 +40,8 @@ std::vector<double> read_numbers(const Source& source, const std::string& name) 
   }
   const bool may_be_zero = name == "length" || name == "diameter";
   for (const double value : values) {
-    if (std::isfinite(value) && (value > 0 || (may_be_zero && value == 0))) continue;
+    const bool is_fixed = name == "mass" && std::isinf(value);
+    if ((std::isfinite(value) || is_fixed) && (value > 0 || (may_be_zero && value == 0))) continue;
     throw InputError(
         fmt::format("{} = {}: expected a number {} 0", place, value, may_be_zero ? ">=" : ">"));
   }
@@ -69,7 +70,7 @@ std::vector<double> masses_by_species(const Source& source) {
   indices.resize(masses.size());
   std::vector<double> of_species;
   for (std::size_t i = 0; i < masses.size(); ++i) {
-    if (!(masses[i] > 0 && std::isfinite(masses[i]))) {
+    if (!(masses[i] > 0)) {
       throw InputError(
           fmt::format("{} = {}: expected a number > 0", source.place(path), masses[i]));
     }
@@ -125,7 +126,7 @@ OwnBodies read_own_bodies(const Source& source, std::size_t needles) {
                                    column->size(), needles));
     }
     for (const double value : *column) {
-      if (std::isfinite(value) && value >= 0) continue;
+      if (value >= 0) continue;
       throw InputError(fmt::format("{} = {}: expected a number >= 0", place, value));
     }
   }

@@ -119,7 +119,7 @@ StepAndTime make_needles(hid_t group, const Scene& scene, std::vector<std::uint8
   std::vector<double> masses = own.mass;
   masses.reserve(count);
   for (std::size_t i = masses.size(); i < species.size(); ++i)
-    masses.push_back(composition[species[i]].mass);
+    masses.push_back(composition[species[i]].mass_or_infinity());
   hdf5::write_array<double>(group, "mass", {count}, masses, place);
   for (const auto& [name, column] : {std::pair("length", &own.length),
                                      {"diameter", &own.diameter},
@@ -193,7 +193,9 @@ void make_species(hid_t parameters, const Composition& composition, const std::s
     hdf5::write_array<double>(parameters, name, {size}, values, place);
   };
   write_each("length", &Species::length);
-  write_each("mass", &Species::mass);
+  std::vector<double> masses;
+  for (const Species& each : composition.species()) masses.push_back(each.mass_or_infinity());
+  hdf5::write_array<double>(parameters, "mass", {size}, masses, place);
   write_each("k", &Species::k);
   if (composition.has_width()) {
     write_each("diameter", &Species::diameter);

@@ -1,6 +1,8 @@
 // What flight and collisions need to know of a body.
 #pragma once
 
+#include <limits>
+
 #include "needlework/composition.h"
 #include "src/composition/sizes.h"
 
@@ -43,6 +45,15 @@ inline Body body_of(const BodyNumbers& numbers) {
           .inertia = numbers.inertia,
           .inverse_mass = 1 / numbers.mass,
           .inverse_inertia = numbers.inertia > 0 ? 1 / numbers.inertia : 0};
+}
+
+/// The same body, which nothing moves.
+inline Body fixed(Body body) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  body.mass = infinity;
+  if (body.turns()) body.inertia = infinity;
+  body.inverse_mass = body.inverse_inertia = 0;
+  return body;
 }
 
 /// Whether the model looks up nothing for this species, because all its factors are 1.

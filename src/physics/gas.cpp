@@ -119,8 +119,8 @@ void Gas::set_composition(Composition its_composition) {
 void Gas::look_up_bodies() {
   longest = composition.longest() * (slides ? 1 + 2 * most_departure : 1);
   bodies_.clear();
-  for (const Species& each : composition.species()) {
-    bodies_.push_back(as_in_this_gas(body_of(each)));
+  for (std::size_t n = 0; n < composition.size(); ++n) {
+    bodies_.push_back(as_in_this_gas(body_of(composition[n]), n));
   }
 }
 

@@ -87,6 +87,9 @@ struct Gas {
   double reach(Needle i) const {
     return has_own_bodies() ? own_body(i).reach() : body_of_species(i).reach();
   }
+  bool is_fixed(Needle i) const { return composition[records[i].species].fixed; }
+  /// Number of needles that move.
+  std::size_t moving() const { return size() - composition.fixed(); }
   bool has_own_bodies() const { return !own_bodies.empty(); }
   /// Whether the needles of a species have the mass and the moment of inertia that it has.
   bool bodies_are_of(std::size_t species) const {
@@ -94,7 +97,7 @@ struct Gas {
     return !has_own_bodies() && bodies_[species].mass == its.mass &&
            bodies_[species].inertia == its.inertia();
   }
-  /// Of all needles. [m]
+  /// Of all needles that move. [m]
   double mass() const { return total_mass(composition); }
   /// How a needle moves from its record on.
   FreeFlight motion(const Record& record) const {
@@ -142,10 +145,12 @@ struct Gas {
  private:
   void look_up_bodies();
   const Body& body_of_species(Needle i) const { return bodies_[records[i].species]; }
-  Body own_body(Needle i) const { return as_in_this_gas(needlework::body_of(own_bodies[i])); }
-  Body as_in_this_gas(Body body) const {
+  Body own_body(Needle i) const {
+    return as_in_this_gas(needlework::body_of(own_bodies[i]), records[i].species);
+  }
+  Body as_in_this_gas(Body body, std::size_t species) const {
     if (slides) body.departure = most_departure * body.length();
-    return body;
+    return composition[species].fixed ? fixed(body) : body;
   }
 
   std::vector<Body> bodies_ = {needlework::body_of(Species{})};  ///< of each species

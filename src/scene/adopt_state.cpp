@@ -80,6 +80,16 @@ double k_of(const Scene& scene, const Species& body, std::size_t n, const Bodies
   return is_k_said || body.diameter == 0 ? body.k : homogeneous_k(body.length, body.diameter);
 }
 
+// Whether bodies are fixed, which files say by an infinite mass.
+bool adopt_fixed(const Scene& scene, Species& body, std::size_t n, bool expected) {
+  if (!scene.species.empty() && body.fixed != expected) {
+    refuse(scene, place_of(scene, key_of_entry("species.fixed", n), body.fixed ? "true" : "false"),
+           expected ? "true" : "false");
+  }
+  body.fixed = expected;
+  return expected;
+}
+
 Species completed(const Scene& scene, Species body, std::size_t n, const Bodies& bodies) {
   if (!bodies.names.empty() && !scene.species.empty() && body.name != bodies.names[n]) {
     const auto quoted = [](const std::string& name) { return '"' + printable(name) + '"'; };
@@ -89,6 +99,7 @@ Species completed(const Scene& scene, Species body, std::size_t n, const Bodies&
   for (const auto& [key, known, value] : dimensions) {
     if ((bodies.*known).empty()) continue;
     const double expected = (bodies.*known)[n];
+    if (known == &Bodies::mass && adopt_fixed(scene, body, n, std::isinf(expected))) continue;
     if (is_said(scene, key, n, body.*value == Species{}.*value))
       require_agreement(scene, key, n, body.*value, expected);
     body.*value = expected;
@@ -217,7 +228,9 @@ Bodies bodies_of(const Composition& composition) {
   Bodies bodies;
   for (const Species& each : composition.species()) {
     if (composition.is_mixture()) bodies.names.push_back(each.name);
-    for (const auto& [key, known, value] : dimensions) (bodies.*known).push_back(each.*value);
+    for (const auto& [key, known, value] : dimensions) {
+      (bodies.*known).push_back(value == &Species::mass ? each.mass_or_infinity() : each.*value);
+    }
     bodies.k.push_back(each.k);
   }
   return bodies;
@@ -233,7 +246,8 @@ std::string warning_of_unknown_bodies(const Scene& scene, const Bodies& bodies) 
     const Species& body = composition[n];
     for (const auto& [key, known, value] : dimensions) {
       const bool is_default = body.*value == Species{}.*value;
-      add_if((bodies.*known).empty() && !is_said(scene, key, n, is_default), key);
+      const bool has_none = body.fixed && value == &Species::mass;
+    add_if(!has_none && (bodies.*known).empty() && !is_said(scene, key, n, is_default), key);
     }
     const bool is_k_said = is_said(scene, "k", n, body.k == Species{}.k) ||
                            is_said(scene, "inertia", n, true) || !body.turns();

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "needlework/scene.h"
+#include "src/scene/own_bodies.h"
 
 namespace needlework {
 
@@ -20,8 +21,14 @@ Composition Scene::composition() const {
                    .diameter = needles.diameter,
                    .given_inertia = {}});
   }
+  std::uint64_t first = 0;
   for (Species& each : all) {
-    if (!each.turns()) each.t_rot = 0;
+    each = completed(each, needles.seed, first);
+    first += each.count;
+  }
+  for (Species& each : all) {
+    if (each.fixed) each.t_tr = 0;
+    if (!each.turns() || each.fixed) each.t_rot = 0;
     if (each.given_inertia && each.turns())
       each.k = each.mass * (each.length * each.length) / (2 * *each.given_inertia);
   }

@@ -18,8 +18,11 @@ constexpr double cooled = 1e-40;
 
 GasNumbers numbers_of_drawn(const Scene& scene) {
   const Composition composition = scene.composition();
-  GasNumbers out{.count = static_cast<double>(composition.count()), .species = {}, .moves = false};
+  GasNumbers out{.count = static_cast<double>(composition.count() - composition.fixed()),
+                 .species = {},
+                 .moves = false};
   for (const Species& species : composition.species()) {
+    if (species.fixed) continue;
     const auto count = static_cast<double>(species.count);
     const double per_mass = count / species.mass;
     out.species.push_back({.length = species.length,

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -39,7 +40,7 @@ Vector normal_part(Vector a, const Vector& u) {
 struct Drawn {
   std::vector<double> factors;  ///< by species; 1 where there is one
   std::vector<double> weights;  ///< masses or moments of inertia over that of this species
-  double mean_square = 0;       ///< of all needles, by these weights
+  double mean_square = 0;       ///< of all needles that move, by these weights
 
   // `square(species)` is the mean square of the quantity, `weight(species)` the mass or the moment
   // of inertia.
@@ -48,10 +49,18 @@ struct Drawn {
     const auto& all = composition.species();
     // Of those with needles: another one must not change how numbers round.
     const Species& first = *std::ranges::max_element(all, [&](const Species& a, const Species& b) {
-      return std::pair(a.count > 0, square(a)) < std::pair(b.count > 0, square(b));
+      const auto rank = [&](const Species& s) {
+        return std::tuple(s.count > 0, !s.fixed, square(s));
+      };
+      return rank(a) < rank(b);
     });
-    const double count = static_cast<double>(composition.count());
+    const double count = static_cast<double>(composition.count() - composition.fixed());
     for (const Species& s : all) {
+      if (s.fixed) {
+        factors.push_back(0);
+        weights.push_back(0);
+        continue;
+      }
       factors.push_back(square(first) > 0 ? std::sqrt(square(s) / square(first)) : 0);
       weights.push_back(weight(first) > 0 ? weight(s) / weight(first) : 0);  // spheres do not turn
       mean_square += static_cast<double>(s.count) / count * (square(s) * weights.back());
@@ -75,9 +84,10 @@ void remove_mean(std::vector<Vector>& vectors, const WeightOf& weight_of) {
     for (std::size_t i = 0; i < 3; ++i) v[i] -= mean[i];
 }
 
-// Scales all vectors by one factor, so that they have the given mean square.
+// Scales all vectors by one factor, so that those that move have the given mean square.
 template <class WeightOf>
-void set_mean_square(std::vector<Vector>& vectors, double mean_square, const WeightOf& weight_of) {
+void set_mean_square(std::vector<Vector>& vectors, double mean_square, std::size_t moving,
+                     const WeightOf& weight_of) {
   if (mean_square == 0) {
     for (Vector& v : vectors) v = {};  // a factor 0 would leave signs on the zeros
     return;
@@ -87,8 +97,7 @@ void set_mean_square(std::vector<Vector>& vectors, double mean_square, const Wei
     sum.add(weight_of(n) * dot(vectors[n], vectors[n]));
   }
   if (sum.value() == 0) return;  // no needles
-  const double factor =
-      std::sqrt(mean_square / (sum.value() / static_cast<double>(vectors.size())));
+  const double factor = std::sqrt(mean_square / (sum.value() / static_cast<double>(moving)));
   for (Vector& v : vectors)
     for (double& component : v) component *= factor;
 }
@@ -170,7 +179,8 @@ class Velocities {
     state.angular_velocity[i] = normal_part(random.normal(), state.orientation[i]);
     for (double& w : state.angular_velocity[i]) w *= rotation;
   }
-  // Makes the total momentum 0 and the temperatures those asked for.
+  // Makes the total momentum 0, unless fixed bodies take up what it is, and the temperatures those
+  // asked for.
   void adjust(State& state) const {
     const auto mass = [&](std::size_t i) {
       return flight_.weights[members_.species[i]] * members_.share_of_mass(i);
@@ -178,9 +188,10 @@ class Velocities {
     const auto inertia = [&](std::size_t i) {
       return rotation_.weights[members_.species[i]] * members_.share_of_inertia(i);
     };
-    if (state.size() >= 2) remove_mean(state.velocity, mass);
-    set_mean_square(state.velocity, flight_.mean_square, mass);
-    set_mean_square(state.angular_velocity, rotation_.mean_square, inertia);
+    const std::size_t moving = state.size() - members_.composition.fixed();
+    if (state.size() >= 2 && moving == state.size()) remove_mean(state.velocity, mass);
+    set_mean_square(state.velocity, flight_.mean_square, moving, mass);
+    set_mean_square(state.angular_velocity, rotation_.mean_square, moving, inertia);
   }
 
  private:

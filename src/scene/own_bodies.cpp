@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numeric>
-#include <string>
 #include <tuple>
 
 #include "needlework/error.h"
+#include "src/machine/stop_request.h"
+#include "src/random/needle_random.h"
 #include "src/scene/sections/sections.h"
 
 namespace needlework {
@@ -16,12 +18,6 @@ namespace {
 
 std::uint32_t id_of_row(const State& state, std::size_t row) {
   return state.id.empty() ? static_cast<std::uint32_t>(row) : state.id[row];
-}
-
-[[noreturn]] void refuse(const State& state, std::size_t row, const char* what, double value,
-                         const std::string& expected) {
-  throw InputError(fmt::format("state: needle {}: {} = {}: expected {}", id_of_row(state, row), what,
-                               value, expected));
 }
 
 void require_numbers(const OwnBodies& bodies, std::size_t count) {
@@ -35,33 +31,39 @@ void require_numbers(const OwnBodies& bodies, std::size_t count) {
   }
 }
 
+// The first number that no body of a scene has.
+std::optional<WrongBody> wrong_number_of(const BodyNumbers& body) {
+  const auto range_of = [](const ValueRange& range) {
+    return fmt::format("from {:g} to {:g}{}", range.least, range.greatest,
+                       range.or_zero ? ", or 0" : "");
+  };
+  if (!lengths.holds(body.length)) return WrongBody{0, "length", body.length, range_of(lengths)};
+  if (!lengths.holds(body.diameter))
+    return WrongBody{0, "diameter", body.diameter, range_of(lengths)};
+  if (!masses.holds(body.mass)) return WrongBody{0, "mass", body.mass, range_of(masses)};
+  if (body.length == 0) return {};
+  const double k = body.mass * (body.length * body.length) / (2 * body.inertia);
+  if (range_of_k.holds(k)) return {};
+  return WrongBody{0, "inertia", body.inertia,
+                   fmt::format("one with which k = m L^2 / (2 I) is {}", range_of(range_of_k))};
+}
+
+// `usual` is another body of the species.
 void require_in_range(const State& state, std::size_t row, const BodyNumbers& body,
                       const BodyNumbers& usual) {
-  const auto check = [&](const char* what, double value, const ValueRange& range) {
-    if (range.holds(value)) return;
-    refuse(state, row, what, value,
-           fmt::format("from {:g} to {:g}{}", range.least, range.greatest,
-                       range.or_zero ? ", or 0" : ""));
+  const auto refuse = [&](std::string_view what, double value, const std::string& expected) {
+    throw InputError(fmt::format("state: needle {}: {} = {}: expected {}", id_of_row(state, row),
+                                 what, value, expected));
   };
-  check("length", body.length, lengths);
-  check("diameter", body.diameter, lengths);
-  check("mass", body.mass, masses);
-  if ((body.length > 0) != (usual.length > 0)) {
-    refuse(state, row, "length", body.length,
-           usual.length > 0 ? "above 0, as others of its species have one" : "0, as for the others");
-  }
-  if ((body.diameter > 0) != (usual.diameter > 0)) {
-    refuse(state, row, "diameter", body.diameter,
-           usual.diameter > 0 ? "above 0, as others of its species have one"
-                              : "0, as for the others");
-  }
-  if (body.length == 0) return;
-  const double k = body.mass * (body.length * body.length) / (2 * body.inertia);
-  if (!range_of_k.holds(k)) {
-    refuse(state, row, "inertia", body.inertia,
-           fmt::format("one with which k = m L^2 / (2 I) is from {:g} to {:g}", range_of_k.least,
-                       range_of_k.greatest));
-  }
+  if (const auto wrong = wrong_number_of(body))
+    refuse(wrong->quantity, wrong->value, wrong->expected);
+  const auto compare = [&](std::string_view what, double value, double others) {
+    if ((value > 0) == (others > 0)) return;
+    refuse(what, value,
+           others > 0 ? "a number above 0, as others of its species have" : "0, as for others of its species");
+  };
+  compare("length", body.length, usual.length);
+  compare("diameter", body.diameter, usual.diameter);
 }
 
 BodyNumbers body_of_row(const OwnBodies& own, std::size_t row, const Species& species) {
@@ -75,8 +77,117 @@ BodyNumbers body_of_row(const OwnBodies& own, std::size_t row, const Species& sp
   if (!species.given_inertia && out.length > 0)
     out.inertia = out.mass * (out.length * out.length) / (2 * species.k);
   take(out.inertia, own.inertia);
+  if (species.fixed) {
+    // Whatever moves it: files have an infinite one.
+    if (std::isinf(out.mass)) out.mass = species.mass;
+    out.inertia = out.mass * (out.length * out.length) / (2 * species.k);
+  }
   if (out.length == 0) out.inertia = 0;
   return out;
+}
+
+// Makes the bodies of a species by seed and id.
+class BodyMaker {
+ public:
+  BodyMaker(const Species& species, std::uint64_t seed) : species_(species), seed_(seed) {
+    for (std::size_t n = 0; n < drawn_quantities.size(); ++n) {
+      const auto& distribution = species.drawn.*drawn_quantities[n].member;
+      if (!distribution) continue;
+      if (is_spread(*distribution))
+        quantiles_[n].emplace(*distribution);
+      else
+        numbers_[n] = distribution->mean ? distribution->mean : distribution->least;
+    }
+  }
+
+  // Whether all bodies are alike.
+  bool is_one() const {
+    return std::ranges::none_of(quantiles_, [](const auto& each) { return each.has_value(); });
+  }
+  BodyNumbers body(std::uint64_t id) const {
+    BodyNumbers out;
+    out.length = drawn(0, id).value_or(species_.length);
+    out.diameter = species_.drawn.aspect ? out.length / *species_.drawn.aspect
+                                         : drawn(1, id).value_or(species_.diameter);
+    out.mass = species_.drawn.density ? *species_.drawn.density * substance(out)
+                                      : drawn(2, id).value_or(species_.mass);
+    if (!(out.length > 0)) {
+      out.inertia = 0;
+    } else if (const auto inertia = drawn(4, id); inertia || species_.given_inertia) {
+      out.inertia = inertia ? *inertia : *species_.given_inertia;
+    } else {
+      out.inertia = out.mass * (out.length * out.length) / (2 * k_of(out, id));
+    }
+    return out;
+  }
+
+ private:
+  static bool is_spread(const Distribution& distribution) {
+    if (distribution.shape == Distribution::Shape::powerlaw)
+      return distribution.least != distribution.greatest;
+    return distribution.width.value_or(0) > 0;
+  }
+  std::optional<double> drawn(std::size_t quantity, std::uint64_t id) const {
+    if (!quantiles_[quantity]) return numbers_[quantity];
+    return (*quantiles_[quantity])(NeedleRandom(seed_, id, RandomFor::size, quantity).bits());
+  }
+  double k_of(const BodyNumbers& body, std::uint64_t id) const {
+    if (const auto k = drawn(3, id)) return *k;
+    const bool is_homogeneous =
+        species_.drawn.density && body.diameter > 0 && species_.k == Species{}.k;
+    return is_homogeneous ? homogeneous_k(body.length, body.diameter) : species_.k;
+  }
+  // What a density counts: the length of a needle, the volume of others.
+  static double substance(const BodyNumbers& body) {
+    if (body.diameter == 0) return body.length;
+    return Species{.length = body.length, .diameter = body.diameter}.volume();
+  }
+
+  const Species species_;
+  const std::uint64_t seed_;
+  std::array<std::optional<Quantiles>, drawn_quantities.size()> quantiles_;
+  std::array<std::optional<double>, drawn_quantities.size()> numbers_;
+};
+
+// The species that `make` makes, which takes a while, or the same as when it was last asked for.
+template <class Make>
+Species remembered(const Species& species, std::uint64_t seed, std::uint64_t first,
+                   const Make& make) {
+  struct Known {
+    Species asked;
+    std::uint64_t seed, first;
+    Species made;
+  };
+  const auto is_same = [&](const Known& known) {
+    const Species& a = known.asked;
+    return known.seed == seed && known.first == first && a.drawn == species.drawn &&
+           a.count == species.count && a.length == species.length &&
+           a.diameter == species.diameter && a.mass == species.mass && a.k == species.k &&
+           a.given_inertia == species.given_inertia;
+  };
+  static std::mutex mutex;
+  static std::vector<Known> all;
+  constexpr std::size_t most = 16;
+  {
+    const std::lock_guard lock(mutex);
+    const auto found = std::ranges::find_if(all, is_same);
+    if (found != all.end()) {
+      Species out = species;
+      const Species& made = found->made;
+      out.length = made.length;
+      out.diameter = made.diameter;
+      out.mass = made.mass;
+      out.k = made.k;
+      out.given_inertia.reset();
+      out.sizes = made.sizes;
+      return out;
+    }
+  }
+  const Species made = make();
+  const std::lock_guard lock(mutex);
+  if (all.size() == most) all.erase(all.begin());
+  all.push_back({species, seed, first, made});
+  return made;
 }
 
 }  // namespace
@@ -102,7 +213,64 @@ std::vector<BodyNumbers> own_bodies_of(const Composition& composition, const Sta
   return out;
 }
 
-std::vector<BodyNumbers> drawn_bodies(const Scene&) { return {}; }
+Species completed(const Species& species, std::uint64_t seed, std::uint64_t first) {
+  if (species.sizes || species.drawn == DrawnSizes{}) return species;
+  const bool is_wrong = std::ranges::any_of(drawn_quantities, [&](const DrawnQuantity& each) {
+    const auto& distribution = species.drawn.*each.member;
+    return distribution && what_is_wrong(*distribution);
+  });
+  if (is_wrong) return species;
+  const BodyMaker maker(species, seed);
+  if (maker.is_one()) {
+    Species out = species;
+    const BodyNumbers body = maker.body(0);
+    out.length = body.length;
+    out.diameter = body.diameter;
+    out.mass = body.mass;
+    if (out.turns()) out.k = body.mass * (body.length * body.length) / (2 * body.inertia);
+    out.given_inertia.reset();
+    return out;
+  }
+  if (species.count == 0) return species;
+  return remembered(species, seed, first, [&] {
+    SizesOfBodies sizes;
+    for (std::uint64_t n = 0; n < species.count; ++n) {
+      StopRequest::check_in_turn(n);
+      sizes.add(maker.body(first + n));
+    }
+    return sizes.complete(species);
+  });
+}
+
+std::optional<WrongBody> wrong_body_of(const Species& species, std::uint64_t seed,
+                                       std::uint64_t first) {
+  if (species.sizes || species.drawn == DrawnSizes{} || species.count == 0) return {};
+  const BodyMaker maker(species, seed);
+  const std::uint64_t count = maker.is_one() ? 1 : species.count;
+  for (std::uint64_t n = 0; n < count; ++n) {
+    StopRequest::check_in_turn(n);
+    if (auto wrong = wrong_number_of(maker.body(first + n))) {
+      wrong->id = first + n;
+      return wrong;
+    }
+  }
+  return {};
+}
+
+std::vector<BodyNumbers> drawn_bodies(const Scene& scene) {
+  std::vector<BodyNumbers> out;
+  const Composition composition = scene.composition();
+  if (!composition.has_own_sizes()) return out;
+  out.reserve(composition.count());
+  for (const Species& species : scene.species) {
+    const BodyMaker maker(species, scene.needles.seed);
+    for (std::uint64_t n = 0; n < species.count; ++n) {
+      StopRequest::check_in_turn(n);
+      out.push_back(maker.body(out.size()));
+    }
+  }
+  return out;
+}
 
 OwnBodies columns_of(const std::vector<BodyNumbers>& bodies) {
   OwnBodies out;

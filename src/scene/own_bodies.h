@@ -1,6 +1,11 @@
 // Bodies that have numbers of their own, where those of a species differ.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "needlework/scene.h"
@@ -16,6 +21,47 @@ BodyNumbers numbers_of(const Species& species);
 /// no row has numbers of its own. Throws InputError for numbers out of range, and for species in
 /// which some bodies turn, or have width, and others do not.
 std::vector<BodyNumbers> own_bodies_of(const Composition& composition, const State& state);
+
+/// A number of bodies that may be drawn, with the keys of its distribution.
+struct DrawnQuantity {
+  std::string_view name;
+  std::optional<Distribution> DrawnSizes::*member;
+  /// Of the shape, mean, width, least and greatest number, and of the exponent.
+  std::array<std::string_view, 6> keys;
+};
+/// In the order of the counters from which they are drawn.
+inline constexpr std::array<DrawnQuantity, 5> drawn_quantities{
+    {{"length",
+      &DrawnSizes::length,
+      {"length.distribution", "length.mean", "length.width", "length.min", "length.max",
+       "length.exponent"}},
+     {"diameter",
+      &DrawnSizes::diameter,
+      {"diameter.distribution", "diameter.mean", "diameter.width", "diameter.min", "diameter.max",
+       "diameter.exponent"}},
+     {"mass",
+      &DrawnSizes::mass,
+      {"mass.distribution", "mass.mean", "mass.width", "mass.min", "mass.max", "mass.exponent"}},
+     {"k", &DrawnSizes::k, {"k.distribution", "k.mean", "k.width", "k.min", "k.max", "k.exponent"}},
+     {"inertia",
+      &DrawnSizes::inertia,
+      {"inertia.distribution", "inertia.mean", "inertia.width", "inertia.min", "inertia.max",
+       "inertia.exponent"}}}};
+
+/// A species of a scene with all that follows from how it is drawn: numbers where its bodies are
+/// alike, `sizes` and means where each has its own. `first` is the id of the first of them. Does
+/// nothing where a distribution is wrong, and where `sizes` are known.
+Species completed(const Species& species, std::uint64_t seed, std::uint64_t first);
+
+/// A body of which a number is out of its range.
+struct WrongBody {
+  std::uint64_t id;
+  std::string_view quantity;
+  double value;
+  std::string expected;
+};
+std::optional<WrongBody> wrong_body_of(const Species& species, std::uint64_t seed,
+                                       std::uint64_t first);
 
 /// The bodies that are drawn for a scene, in order of id; empty if those of each species are alike.
 std::vector<BodyNumbers> drawn_bodies(const Scene& scene);

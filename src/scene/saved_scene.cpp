@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "src/scene/own_bodies.h"
 #include "src/scene/scene_members.h"
 
 namespace needlework {
@@ -10,6 +11,20 @@ void transfer(Archive& archive, Sizes& sizes) {
   archive(sizes.product, sizes.square, sizes.cube, sizes.volume, sizes.least_extent,
           sizes.greatest_extent, sizes.greatest_length, sizes.greatest_diameter,
           sizes.least_diameter, sizes.least_mass, sizes.least_inertia);
+}
+
+void transfer(Archive& archive, Distribution& distribution) {
+  auto shape = static_cast<std::uint8_t>(distribution.shape);
+  archive(shape);
+  archive.require(shape < Distribution::shape_names.size());
+  distribution.shape = static_cast<Distribution::Shape>(shape);
+  archive(distribution.mean, distribution.width, distribution.least,
+          distribution.greatest, distribution.exponent);
+}
+
+void transfer(Archive& archive, DrawnSizes& drawn) {
+  for (const DrawnQuantity& each : drawn_quantities) archive(drawn.*each.member);
+  archive(drawn.density, drawn.aspect);
 }
 
 void transfer(Archive& archive, Scene::Species& species) {

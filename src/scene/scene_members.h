@@ -14,7 +14,8 @@ namespace needlework {
 /// `sizes`, which no key gives.
 template <class Species, class Visit>
 void visit_species(Species& species, Visit&& visit) {
-  auto& [name, count, length, mass, k, t_tr, t_rot, diameter, given_inertia, sizes] = species;
+  auto& [name, count, length, mass, k, t_tr, t_rot, diameter, given_inertia, drawn, fixed, overlap, sizes] =
+      species;
   visit("species", "name", name);
   visit("species", "count", count);
   visit("species", "length", length);
@@ -24,6 +25,9 @@ void visit_species(Species& species, Visit&& visit) {
   visit("species", "t_rot", t_rot);
   visit("species", "diameter", diameter);
   visit("species", "inertia", given_inertia);
+  visit("species", "drawn", drawn);
+  visit("species", "fixed", fixed);
+  visit("species", "overlap", overlap);
   static_cast<void>(sizes);
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "src/scene/printable.h"
+#include "src/scene/own_bodies.h"
 #include "src/scene/scene_members.h"
 #include "src/scene/section.h"
 
@@ -58,6 +59,21 @@ class Collected {
   }
   void operator()(std::string_view, std::string_view, const std::vector<Scene::Species>& all) {
     for (const Scene::Species& species : all) visit_species(species, *this);
+  }
+  void operator()(std::string_view section, std::string_view, const DrawnSizes& drawn) {
+    for (const DrawnQuantity& each : drawn_quantities) {
+      const auto& distribution = drawn.*each.member;
+      if (!distribution) continue;
+      const auto& [shape, mean, width, least, greatest, exponent] = each.keys;
+      (*this)(section, shape, std::string(name_of(distribution->shape)));
+      (*this)(section, mean, distribution->mean);
+      (*this)(section, width, distribution->width);
+      (*this)(section, least, distribution->least);
+      (*this)(section, greatest, distribution->greatest);
+      (*this)(section, exponent, distribution->exponent);
+    }
+    (*this)(section, "mass.density", drawn.density);
+    (*this)(section, "diameter.aspect", drawn.aspect);
   }
   void operator()(std::string_view, std::string_view, const std::vector<Scene::Pair>& all) {
     for (const Scene::Pair& pair : all) visit_pair(pair, *this);

@@ -17,6 +17,7 @@ Andersen::Andersen(Gas& gas, const Parameters& parameters)
 // the time of the first.
 void Andersen::begin(const Gas& gas) {
   for (Needle i{0}; i < gas.size(); ++i) {
+    if (gas.is_fixed(i)) continue;
     NeedleRandom random(parameters_.seed, gas.ids[i].value, RandomFor::thermostat, 0);
     next_[i] = gas.clock.add({}, random.exponential() / parameters_.rate);
   }

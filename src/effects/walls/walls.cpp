@@ -43,7 +43,7 @@ Walls::Walls(Gas& gas, std::vector<Wall> walls, std::uint64_t seed, ContactTimeO
       contact_time_(contact_time),
       touching_(gas.columns.add<std::uint64_t>("tips at walls", ~std::uint64_t{0})) {
   for (const Species& each : gas.composition.species()) {
-    heaviest_ = std::max(heaviest_, each.mass);
+    if (!each.fixed) heaviest_ = std::max(heaviest_, each.mass);
   }
   const auto is_thermal = [](const Wall& wall) { return wall.temperature > 0; };
   if (std::ranges::any_of(walls_, is_thermal)) {
@@ -96,6 +96,7 @@ unsigned Walls::touching(const Record& record, Needle i, std::size_t wall) const
 SourceEvent Walls::next(const Gas& gas, Needle i, Time now, Time until) const {
   const Record& record = gas.records[i];
   SourceEvent out;
+  if (gas.is_fixed(i)) return out;
   Time latest = until;
   std::optional<NeedleTrajectory> trajectory;
   if (gas.slides && record.is_sliding()) {
@@ -104,7 +105,7 @@ SourceEvent Walls::next(const Gas& gas, Needle i, Time now, Time until) const {
   }
   for (std::size_t n = 0; n < walls_.size(); ++n) {
     const Wall& wall = walls_[n];
-    const Body& body = gas.body(i);
+    const Body body = gas.body(i);
     // The caps of rods touch where the ends of their axes are half a diameter away.
     kernels::WallPlane plane = wall.plane;
     plane.place += plane.normal * body.radius;

@@ -12,6 +12,10 @@ SceneSection initial_section();
 SceneSection collisions_section();
 SceneSection pairs_section();
 SceneSection walls_section();
+/// Adds what [[species]] says of bodies that differ.
+void add_sizes(SceneSection& species);
+/// Adds what [[species]] says of bodies that do not move.
+void add_fixed(SceneSection& species);
 SceneSection forces_section();
 SceneSection shear_section();
 SceneSection driving_section();

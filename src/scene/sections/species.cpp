@@ -168,7 +168,7 @@ SceneSection species_section() {
   constexpr const char* not_both =
       "expected either [[species]] or needles.count, needles.k, needles.diameter and the "
       "temperatures of [initial], not both";
-  return {
+  SceneSection out{
       .name = "species",
       .keys =
           {
@@ -219,6 +219,9 @@ SceneSection species_section() {
                      {"species.", "initial.t_rot", not_both}},
       .entries = entries_in<&Scene::species>(most_species),
   };
+  add_sizes(out);
+  add_fixed(out);
+  return out;
 }
 
 SceneSection pairs_section() {
