@@ -53,7 +53,7 @@ double mean_free_time(const Composition& composition, double volume,
     for (std::size_t b = 0; b < composition.size(); ++b) {
       const Species& second = composition[b];
       const double count_b = static_cast<double>(second.count) - (a == b ? self : 0);
-      if (!(count_a > 0 && count_b > 0)) continue;
+      if (!(count_a > 0 && count_b > 0 && composition.meets(a, b))) continue;
       const SpeciesTemperatures &t_a = temperatures[a], &t_b = temperatures[b];
       const double flight = t_a.t_tr / first.mass + t_b.t_tr / second.mass;
       // Of the tips, whose distance from the centre is half a length.

@@ -36,6 +36,7 @@ Composition Scene::composition() const {
     if (a >= species.size() || b >= species.size()) continue;  // refused where scenes are checked
     out.set_restitution(
         a, b, {pair.epsilon.value_or(everywhere.epsilon), pair.beta.value_or(everywhere.beta)});
+    out.set_meets(a, b, pair.meet);
   }
   return out;
 }
