@@ -340,6 +340,9 @@ NEEDLEWORK_API int needlework_get_species(needlework_simulation* simulation, siz
 /* Two species, in any order, or one of them twice. [handle] */
 NEEDLEWORK_API int needlework_get_species_pair(needlework_simulation* simulation, size_t first,
                                                size_t second, needlework_species_pair* pair);
+/* Whether needles of two species meet: 1, or 0 where they pass through each other. [handle] */
+NEEDLEWORK_API int needlework_species_meet(needlework_simulation* simulation, size_t first,
+                                           size_t second, int* meet);
 /* Copies the species of each needle, by increasing id, to an array of needlework_count() indices.
  * [handle] */
 NEEDLEWORK_API int needlework_get_species_of_needles(needlework_simulation* simulation,

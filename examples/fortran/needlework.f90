@@ -415,6 +415,14 @@ module needlework
       type(needlework_species_pair), intent(inout) :: pair
     end function
 
+    ! `meet` is 1, or 0 where needles of the two pass through each other.
+    integer(c_int) function needlework_species_meet(simulation, first, second, meet) bind(c)
+      import :: c_ptr, c_int, c_size_t
+      type(c_ptr), value :: simulation
+      integer(c_size_t), value :: first, second
+      integer(c_int), intent(inout) :: meet
+    end function
+
     integer(c_int) function needlework_get_species_of_needles(simulation, species) bind(c)
       import :: c_ptr, c_int, c_int8_t
       type(c_ptr), value :: simulation

@@ -106,7 +106,9 @@ class Composition {
   Composition() : Composition({Species{}}, {}) {}
   /// All pairs collide by the same rule.
   Composition(std::vector<Species> all, const Restitution& rule)
-      : species_(std::move(all)), rules_(species_.size() * species_.size(), rule) {}
+      : species_(std::move(all)),
+        rules_(species_.size() * species_.size(), rule),
+        meets_(rules_.size(), true) {}
 
   const std::vector<Species>& species() const { return species_; }
   const Species& operator[](std::size_t index) const { return species_[index]; }
@@ -121,6 +123,23 @@ class Composition {
   }
   /// The rules of all pairs, by first and second species.
   const std::vector<Restitution>& rules() const { return rules_; }
+  /// Whether bodies of species a and b meet, as those of b and a; others pass through each other.
+  bool meets(std::size_t a, std::size_t b) const { return meets_[a * species_.size() + b] != 0; }
+  /// Two that do not meet have the rule of elastic smooth bodies, which nothing asks for.
+  void set_meets(std::size_t a, std::size_t b, bool meets) {
+    meets_[a * species_.size() + b] = meets_[b * species_.size() + a] = meets;
+    if (!meets) set_restitution(a, b, {});
+  }
+  /// Whether no distance is kept: of those that do not meet, but for fixed ones, which may overlap
+  /// each other only where both species say so.
+  bool may_overlap(std::size_t a, std::size_t b) const {
+    const Species &first = species_[a], &second = species_[b];
+    if (first.fixed && second.fixed) return first.overlap && second.overlap;
+    return !meets(a, b);
+  }
+  bool all_meet() const;  ///< the bodies of each two species
+  /// Whether any two of the bodies meet; of a species alone, those that there may be.
+  bool any_meet() const;
 
   void set_count(std::size_t index, std::uint64_t count) { species_[index].count = count; }
   void set_species(std::size_t index, const Species& species) { species_[index] = species; }
@@ -148,7 +167,7 @@ class Composition {
   double packing_fraction(double volume) const;  ///< share of this volume that rods take up
   bool is_mixture() const { return size() > 1; }
   /// One species of thin needles, as in the paper: kinetic theory is exact at every density.
-  bool is_needle_gas() const { return !is_mixture() && !has_width(); }
+  bool is_needle_gas() const { return !is_mixture() && !has_width() && all_meet(); }
   /// Whether any pair has tangential restitution, or loses energy.
   bool is_rough() const;
   bool is_inelastic() const;
@@ -165,6 +184,7 @@ class Composition {
  private:
   std::vector<Species> species_;
   std::vector<Restitution> rules_;
+  std::vector<std::uint8_t> meets_;  ///< by first and second species
 };
 
 }  // namespace needlework

@@ -53,6 +53,7 @@ struct Scene {
     std::array<std::string, 2> between;  ///< names of the species, which may be one
     std::optional<double> epsilon;       ///< normal restitution, [0, 1]
     std::optional<double> beta;          ///< tangential restitution, [-1, 1]
+    bool meet = true;                    ///< or they pass through each other
   };
   /// Motion of a wall along its axis: its surface is at A sin(2 pi f t + phase) from where the wall
   /// is, t from the start of the scene.

@@ -250,7 +250,8 @@ class Recording(NotPickled):
     def gas(self) -> Values:
         """What theory has to know: count, box, k, epsilon, beta, length and mass; of several
         species the arrays species (their names), counts, k, length and mass, [species], and
-        epsilon and beta of each two, [species, species]; diameter of rods of finite width, of each
+        epsilon and beta of each two, [species, species]; meet, of each two whether they do, where
+        some pass through each other; diameter of rods of finite width, of each
         species of several; and undisturbed_until, when a caller
         first replaced the velocities, or inf."""
         given, first = self.parameters, self.frames[0]
@@ -263,8 +264,9 @@ class Recording(NotPickled):
         else:  # of an older version, or of another program
             masses = self._needles["mass"][:1] if "mass" in self._needles else ()
             facts["mass"] = float(masses[0]) if len(masses) else 1.0
-        if "diameter" in given:
-            facts["diameter"] = given.diameter
+        for name in ("diameter", "meet"):
+            if name in given:
+                facts[name] = given[name]
         return Values({**facts, "k": given.k, "epsilon": given.epsilon, "beta": given.beta,
                        "length": given.get("length", 1.0),
                        "undisturbed_until": min(self.velocities_set.time, default=np.inf)})

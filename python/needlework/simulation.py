@@ -638,11 +638,12 @@ class Simulation(NotPickled):
     def gas(self) -> Values:
         """What theory has to know: count, box, k, epsilon, beta, length and mass; of several
         species the arrays species (their names), counts, k, length and mass, [species], and
-        epsilon and beta of each two, [species, species]; diameter of rods of finite width, of each
+        epsilon and beta of each two, [species, species]; meet, of each two whether they do, where
+        some pass through each other; diameter of rods of finite width, of each
         species of several; and undisturbed_until, the time of the
         first set_velocities(), or inf."""
         names = [name for name in ("count", "box", "species", "counts", "k", "epsilon", "beta",
-                                   "length", "mass", "diameter") if name in self._facts]
+                                   "meet", "length", "mass", "diameter") if name in self._facts]
         return Values({**{name: self._facts[name] for name in names},
                        "undisturbed_until": self._undisturbed_until})
 

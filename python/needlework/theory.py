@@ -226,13 +226,14 @@ def _mixture(gas: Mapping[str, Any]) -> tuple[tuple[Any, ...], int]:
         raise InputError("length = 0: expected numbers > 0, or a diameter > 0")
     mass, k = (_each(name, gas.get(name, usual), size, positive=True)
                for name, usual in (("mass", 1.0), ("k", homogeneous_k(length, diameter))))
-    epsilon, beta = (_each_two(name, gas.get(name, usual), size, least)
-                     for name, usual, least in (("epsilon", 1.0, 0.0), ("beta", -1.0, -1.0)))
+    epsilon, beta, meet = (_each_two(name, gas.get(name, usual), size, least)
+                           for name, usual, least in (("epsilon", 1.0, 0.0), ("beta", -1.0, -1.0),
+                                                      ("meet", 1.0, 0.0)))
     box = numbers("box", gas["box"])
     if box.shape not in ((), (3,)) or not np.all(np.isfinite(box) & (box > 0)):
         raise InputError(f"box = {box}: expected one or three edges > 0")
     volume = float(np.prod(np.broadcast_to(box, 3)))
-    return (counts, length, mass, k, diameter, epsilon, beta, volume), size
+    return (counts, length, mass, k, diameter, epsilon, beta, meet, volume), size
 
 
 def _each(name: str, values: ArrayLike, size: int, positive: bool = False) -> np.ndarray:

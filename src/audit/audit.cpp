@@ -137,7 +137,8 @@ Audit::Audit(const State& initial, const Setup& setup)
       ids_(initial.id),
       needles_(needles_of(initial, {}, bodies_, setup.epoch_length, unit_)),
       walls_(walls_of(setup.walls, space_.box, setup.epoch_length, unit_)),
-      windows_(beside_flow(needles_, {}), bodies_, space_.box[0] * space_.box[1] * space_.box[2],
+      windows_(beside_flow(needles_, {}), bodies_, setup.composition,
+               space_.box[0] * space_.box[1] * space_.box[2],
                setup.driving.kicks ? setup.driving.kicks->every / setup.epoch_length : HUGE_VAL),
       initial_energy_(energy()) {
   if (setup.shear && (!setup.walls.empty() || norm(space_.gravity) > 0 || setup.driving.kicks ||
@@ -175,7 +176,13 @@ Audit::Index Audit::index_of(std::uint32_t id) const {
   return static_cast<Index>(found - ids_.begin());
 }
 
+bool Audit::meet(Index i, Index j) const {
+  return setup_.composition.meets(needles_[i].body.species, needles_[j].body.species);
+}
+
+// Of pairs that pass through each other, there is nothing to check.
 bool Audit::is_chosen(Index i, Index j) const {
+  if (!meet(i, j)) return false;
   if (setup_.share >= 1) return true;
   const std::uint64_t pair = key_of(i, j);
   return static_cast<double>(mixed(mixed(setup_.seed) ^ pair)) < setup_.share * 0x1p64;
@@ -385,6 +392,7 @@ void Audit::check_pair(const Instant& now, const Collision& collision,
   if (now < needles_[a].record.time || now < needles_[b].record.time) return;
   check_rule(a, b, now, collision, judgement);
   if (joint_of(a, b)) report(Kind::spurious, a, b, now);  // which f = 0 leaves open
+  if (!meet(a, b)) report(Kind::spurious, a, b, now);
   for (const Index i : {a, b}) check_held(i, now);
   check_partners(a, b, now);
   check_partners(b, a, now);

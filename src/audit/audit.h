@@ -212,6 +212,7 @@ class Audit {
   static std::uint64_t key_of(Index i, Index j) {
     return std::uint64_t{i < j ? i : j} << 32 | (i < j ? j : i);
   }
+  bool meet(Index i, Index j) const;  ///< or they pass through each other
   bool is_chosen(Index i, Index j) const;
   double since_start(const Instant& time) const;
   Instant begin_of(Index i, Index j) const;  ///< the later of the times of both records

@@ -180,14 +180,16 @@ void Audit::check_end(const Scene::Until& until, Stop reason, double time) {
   if (!right) report(Kind::wrong_end);
 }
 
-// Whether no two needles can ever meet: none turns, and all move alike.
+// Whether no two needles can ever meet: all pass through each other, or none turns, and all move
+// alike.
 bool Audit::is_at_rest() const {
   const Scene::Driving& driving = setup_.driving;
+  const bool passing = !setup_.composition.any_meet();
   if (!walls_.empty() || norm(space_.gravity) != 0 || driving.kicks || driving.andersen ||
-      (space_.rows && needles_.size() > 1)) {
+      (space_.rows && needles_.size() > 1 && !passing)) {
     return needles_.empty();
   }
-  if (needles_.size() < 2) return true;
+  if (needles_.size() < 2 || passing) return true;
   const Vector<double>& v = needles_.front().record.v;
   return std::ranges::all_of(needles_, [&](const Needle& needle) {
     const Record& record = needle.record;

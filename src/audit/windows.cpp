@@ -116,7 +116,7 @@ double excluded(const Temperatures& gas_a, const AuditedBody& a, const Temperatu
 }  // namespace
 
 double mean_free_time(std::span<const Temperatures> gas, std::span<const AuditedBody> bodies,
-                      double volume) {
+                      const Composition& composition, double volume) {
   // Thin needles count as partners of themselves.
   const bool thin =
       std::ranges::none_of(bodies, [](const AuditedBody& b) { return b.diameter > 0; });
@@ -125,7 +125,7 @@ double mean_free_time(std::span<const Temperatures> gas, std::span<const Audited
     count += gas[a].count;
     for (std::size_t b = 0; b < gas.size(); ++b) {
       const double partners = gas[b].count - (a == b && !thin ? 1 : 0);
-      if (!(gas[a].count > 0 && partners > 0)) continue;
+      if (!(gas[a].count > 0 && partners > 0 && composition.meets(a, b))) continue;
       collisions += gas[a].count * partners * excluded(gas[a], bodies[a], gas[b], bodies[b]);
     }
   }
@@ -133,14 +133,18 @@ double mean_free_time(std::span<const Temperatures> gas, std::span<const Audited
   return volume * count / (std::sqrt(boost::math::constants::pi<double>() / 8) * collisions);
 }
 
-Windows::Windows(std::span<const Needle> needles, std::vector<AuditedBody> bodies, double volume,
-                 double between_kicks)
-    : bodies_(std::move(bodies)), volume_(volume), between_kicks_(between_kicks) {
+Windows::Windows(std::span<const Needle> needles, std::vector<AuditedBody> bodies,
+                 Composition composition, double volume, double between_kicks)
+    : bodies_(std::move(bodies)),
+      composition_(std::move(composition)),
+      volume_(volume),
+      between_kicks_(between_kicks) {
   open({}, needles);
 }
 
 void Windows::open(const Instant& now, std::span<const Needle> needles) {
-  mean_free_time_ = audit::mean_free_time(temperatures_of(needles, bodies_), bodies_, volume_);
+  mean_free_time_ =
+      audit::mean_free_time(temperatures_of(needles, bodies_), bodies_, composition_, volume_);
   if (!std::isfinite(usual_time())) {
     end_ = {std::numeric_limits<std::int64_t>::max(), 0};
     return;

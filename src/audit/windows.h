@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "needlework/composition.h"
 #include "src/audit/pair_flight.h"
 
 namespace needlework::audit {
@@ -28,9 +29,10 @@ double energy_of(std::span<const Needle> needles);
 /// s'^2 / I_b averaged over the needles; half as often if a is b. The axes of rods exclude more
 /// than these sides: their ends add 4 D L to L_a L_b for each of the two, and 8 D^2, where only the
 /// part (L / 2)^2 (1 - mu^2) of the square of an arm counts, mu uniform. In a mixture, and among
-/// rods, a needle is no partner of its own, as the engine counts. Infinite if nothing moves.
+/// rods, a needle is no partner of its own, as the engine counts. Species that pass through each
+/// other do not count. Infinite if nothing moves.
 double mean_free_time(std::span<const Temperatures> gas, std::span<const AuditedBody> bodies,
-                      double volume);
+                      const Composition& composition, double volume);
 
 /// Follows the ends of windows. A window begins with the run, at the end of the one before or with
 /// a kick, and lasts for the power of two at or below the mean free time at its start, or the
@@ -41,8 +43,8 @@ class Windows {
   static constexpr double tolerance = 4e-6;
 
   /// Opens the first window at time 0. `between_kicks` is their interval, or infinite.
-  Windows(std::span<const Needle> needles, std::vector<AuditedBody> bodies, double volume,
-          double between_kicks);
+  Windows(std::span<const Needle> needles, std::vector<AuditedBody> bodies,
+          Composition composition, double volume, double between_kicks);
 
   /// Opens windows until the present one ends after `now`. `needles_at(time)` gives the needles as
   /// they move then.
@@ -68,6 +70,7 @@ class Windows {
   void open(const Instant& now, std::span<const Needle> needles);
 
   std::vector<AuditedBody> bodies_;
+  Composition composition_;
   double volume_, between_kicks_;
   double mean_free_time_ = 0;
   Instant end_;

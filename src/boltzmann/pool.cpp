@@ -44,7 +44,8 @@ Pool::Pool(const Settings& settings, std::uint64_t number, std::span<const std::
       partners_.push_back({.first = a,
                            .second = b,
                            .rule = all.restitution(a, b),
-                           .weight = pairs * (all[a].length * all[b].length)});
+                           .weight =
+                               all.meets(a, b) ? pairs * (all[a].length * all[b].length) : 0});
     }
   }
   find_fastest();

@@ -48,7 +48,7 @@ class Pool {
   struct Partners {
     std::size_t first, second;
     Restitution rule;
-    double weight;  ///< pairs over all needles, times both lengths [L^2]
+    double weight;  ///< pairs that meet over all needles, times both lengths [L^2]
     std::uint64_t collisions = 0;
   };
   std::span<Needle> needles_of(const Kind& kind);

@@ -79,6 +79,17 @@ int needlework_get_species_pair(needlework_simulation* simulation, size_t first,
   });
 }
 
+int needlework_species_meet(needlework_simulation* simulation, size_t first, size_t second,
+                            int* meet) {
+  return c::guarded(simulation, [&](needlework_simulation& self) {
+    c::require(meet, "meet");
+    const Composition& composition = self.run.simulation().composition();
+    require_species(composition, "first", first);
+    require_species(composition, "second", second);
+    *meet = composition.meets(first, second);
+  });
+}
+
 int needlework_get_species_of_needles(needlework_simulation* simulation, uint8_t* species) {
   return c::guarded(simulation, [&](needlework_simulation& self) {
     c::require(species, "species");

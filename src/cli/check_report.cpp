@@ -89,6 +89,7 @@ Json pairs_json(const runs::Explanation& e, const Composition& composition) {
           {"epsilon", rule.epsilon},
           {"beta", rule.beta},
           {"collisions_per_time", e.rates.empty() ? Json() : number(e.rates[pair])}};
+      if (!composition.meets(a, b)) out[pair_name(composition, a, b)]["meet"] = false;
     }
   }
   return out;
@@ -140,8 +141,10 @@ std::string collision_lines(const Scene& scene, const Composition& composition) 
   for (std::size_t a = 0; a < composition.size(); ++a) {
     for (std::size_t b = a; b < composition.size(); ++b) {
       const Restitution& rule = composition.restitution(a, b);
-      if (rule == usual) continue;
-      text += line("", fmt::format("{}: {}", pair_name(composition, a, b), collision_text(rule)));
+      const bool meet = composition.meets(a, b);
+      if (meet && rule == usual) continue;
+      text += line("", fmt::format("{}: {}", pair_name(composition, a, b),
+                                   meet ? collision_text(rule) : "pass through each other"));
     }
   }
   return text;

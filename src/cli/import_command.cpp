@@ -147,10 +147,13 @@ std::string pairs_text(const Composition& composition) {
   for (std::size_t a = 0; a < composition.size(); ++a) {
     for (std::size_t b = a; b < composition.size(); ++b) {
       const Restitution rule = composition.restitution(a, b);
-      if (rule == first) continue;
-      text += fmt::format("[[pairs]]\nbetween = [{}, {}]\nepsilon = {}\nbeta = {}\n\n",
+      const bool meet = composition.meets(a, b);
+      if (meet && rule == first) continue;
+      const std::string how =
+          meet ? fmt::format("epsilon = {}\nbeta = {}", rule.epsilon, rule.beta) : "meet = false";
+      text += fmt::format("[[pairs]]\nbetween = [{}, {}]\n{}\n\n",
                           toml(printable(composition[a].name)),
-                          toml(printable(composition[b].name)), rule.epsilon, rule.beta);
+                          toml(printable(composition[b].name)), how);
     }
   }
   return text;

@@ -287,6 +287,7 @@ Composition at_temperatures(const Composition& composition,
   for (std::size_t a = 0; a < composition.size(); ++a) {
     for (std::size_t b = a; b < composition.size(); ++b) {
       out.set_restitution(a, b, composition.restitution(a, b));
+      out.set_meets(a, b, composition.meets(a, b));
     }
   }
   return out;

@@ -65,6 +65,21 @@ std::optional<std::size_t> Composition::only() const {
   return present == 1 ? std::optional(last) : std::nullopt;
 }
 
+bool Composition::all_meet() const {
+  return std::ranges::none_of(meets_, [](std::uint8_t meets) { return meets == 0; });
+}
+
+bool Composition::any_meet() const {
+  if (!is_mixture()) return meets(0, 0);
+  for (std::size_t a = 0; a < size(); ++a) {
+    for (std::size_t b = a; b < size(); ++b) {
+      const std::uint64_t others = species_[b].count - (a == b ? 1 : 0);
+      if (species_[a].count > 0 && others > 0 && meets(a, b)) return true;
+    }
+  }
+  return false;
+}
+
 double Composition::longest() const {
   double out = 0;
   for_each_present(species_, [&](std::size_t n) { out = std::max(out, species_[n].greatest_extent()); });

@@ -88,7 +88,7 @@ Scene elastic(const Scene& scene, const State& state) {
   Scene out = scene;
   out.initial = {};
   out.collisions = {};
-  out.pairs.clear();
+  std::erase_if(out.pairs, [](const Scene::Pair& pair) { return pair.meet; });
   out.forces = {};
   out.driving = {};
   out.output = {};

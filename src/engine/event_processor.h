@@ -422,6 +422,9 @@ void EventProcessor<S, M>::consider(Needle i, Needle j, const Shift& shift, doub
                                     Event& best) {
   const Record& mine = gas_.records[i];
   const Record& other = gas_.records[j];
+  if constexpr (M::has_effects) {
+    if (run_.effects.passing && !gas_.composition.meets(mine.species, other.species)) return;
+  }
   // If j has an event before the contact, j searches again then, or earlier, and finds the contact
   // if it still takes place. The renewal counts on its own: not every search knows the next event,
   // and it is that of the present record only once j has searched.

@@ -262,7 +262,7 @@ double mean_free_time_of(const Gas& gas, const std::vector<SumsOfSquares>& sums)
     temperatures.push_back({of.t_tr, of.t_rot});
   }
   const std::optional<std::size_t> only = gas.composition.only();
-  if (!only || gas.composition.has_width()) {
+  if (!only || gas.composition.has_width() || !gas.composition.all_meet()) {
     return mean_free_time(gas.composition, gas.box.volume(), temperatures);
   }
   const Species& species = gas.composition[*only];

@@ -196,7 +196,7 @@ void require_room_for_rods(const Gas& gas) {
   if (!gas.composition.has_width()) return;
   std::vector<RodShape> shapes;
   for (Needle i{0}; i < gas.size(); ++i) shapes.push_back(shape_of(gas, i));
-  RodGrid grid(shapes, gas.box_at({}));
+  RodGrid grid(gas.composition, shapes, gas.box_at({}));
   std::size_t pairs = 0;
   RodGrid::Overlap worst{};
   std::array<std::uint32_t, 2> worst_ids{};

@@ -48,7 +48,8 @@ std::optional<Stop> StopConditions::reached_without_events(Run& run) const {
   if (time == Time::never()) {
     if (run.collisionless()) return Stop::nothing_can_happen;
     // Sources may have events for ever, but no collision.
-    if (run.gas.size() < 2 && energy < 0 && wall == wall.max()) return Stop::nothing_can_happen;
+    const bool none_meet = run.gas.size() < 2 || !run.gas.composition.any_meet();
+    if (none_meet && energy < 0 && wall == wall.max()) return Stop::nothing_can_happen;
     return std::nullopt;
   }
   if (!run.nothing_can_happen()) return std::nullopt;

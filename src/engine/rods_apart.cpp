@@ -49,7 +49,7 @@ std::optional<RodOverlap> find_overlap(const Gas& gas, Time at, kernels::Isa isa
   }
   State state;
   copy_state(gas, at, isa, order, state);
-  RodGrid grid(shapes, gas.box_at(at));
+  RodGrid grid(gas.composition, shapes, gas.box_at(at));
   for (std::size_t i = 0; i < state.size(); ++i) {
     const auto overlap = grid.overlap(state.position[i], state.orientation[i], shapes[i], tolerance);
     grid.enter(state.position[i], state.orientation[i], shapes[i]);

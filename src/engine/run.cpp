@@ -78,6 +78,7 @@ Effects effects_of(const Scene& scene) {
       .rough = composition.is_rough(),
       .contact_time = scene.collisions.tc || scene.collisions.tc_relative,
       .table = !only || !is_unit(composition[*only]),
+      .passing = !composition.all_meet(),
       .width = composition.has_width(),
       .spheres = composition.has_width() && composition.are_spheres(),
       .sliding = scene.collisions.sliding,
@@ -440,6 +441,7 @@ bool Run::nothing_can_happen() const {
 std::optional<Collisionless> Run::collisionless() const {
   // Events and kicks may change directions of flight.
   if (!sources.empty() || kicks) return std::nullopt;
+  if (gas.size() > 1 && !gas.composition.any_meet()) return Collisionless::passing;
   // Images fly past each other.
   if (gas.shear && gas.size() > 1) return std::nullopt;
   const auto state_of = [&](std::size_t i) {

@@ -104,6 +104,11 @@ std::vector<double> physics_of(const Run& run, const Scene& scene) {
     out.insert(out.end(), {each.sizes->least_extent, each.sizes->greatest_extent,
                            each.sizes->product, each.sizes->square});
   }
+  if (!composition.all_meet()) {
+    for (std::size_t a = 0; a < composition.size(); ++a) {
+      for (std::size_t b = a; b < composition.size(); ++b) out.push_back(composition.meets(a, b));
+    }
+  }
   if (!composition.is_mixture()) return out;
   for (const Species& each : composition.species()) {
     out.insert(out.end(), {static_cast<double>(each.count), each.length, each.mass, each.k});

@@ -282,6 +282,12 @@ std::vector<Description> mixture_descriptions() {
   };
 }
 
+std::vector<Description> passing_descriptions() {
+  return {{"/parameters/meet",
+           "Whether needles of each two species meet: 1, or 0 where they pass through each other",
+           none, "[species][species]"}};
+}
+
 std::vector<Description> series_descriptions(const std::vector<SeriesGroup>& groups) {
   std::vector<Description> list;
   for (const SeriesGroup& group : groups) {

@@ -212,7 +212,18 @@ void make_species(hid_t parameters, const Composition& composition, const std::s
   write_pairs("beta", &Restitution::beta);
 }
 
+void make_meetings(hid_t parameters, const Composition& composition, const std::string& place) {
+  if (composition.all_meet()) return;
+  const hsize_t size = composition.size();
+  std::vector<std::uint8_t> values;
+  for (std::size_t a = 0; a < size; ++a) {
+    for (std::size_t b = 0; b < size; ++b) values.push_back(composition.meets(a, b));
+  }
+  hdf5::write_array<std::uint8_t>(parameters, "meet", {size, size}, values, place);
+}
+
 void make_bodies(hid_t parameters, const Composition& composition, const std::string& place) {
+  make_meetings(parameters, composition, place);
   if (composition.is_mixture()) return make_species(parameters, composition, place);
   const auto write = [&](const char* name, double value) {
     hdf5::write_scalar(parameters, name, value, place);
@@ -274,6 +285,7 @@ void make_layout(hid_t file, const Scene& scene, const RunInfo& run, const std::
   if (composition.has_width())
     write_descriptions(file, rod_descriptions(composition.is_mixture()), place);
   if (composition.is_mixture()) write_descriptions(file, mixture_descriptions(), place);
+  if (!composition.all_meet()) write_descriptions(file, passing_descriptions(), place);
   if (!scene.walls.empty()) write_descriptions(file, wall_descriptions(), place);
   if (scene.shear) write_descriptions(file, shear_descriptions(), place);
   if (run.has_kinds) write_descriptions(file, event_kind_descriptions(), place);

@@ -123,6 +123,8 @@ std::optional<Forecast> forecast(const Composition& composition, double volume,
                                  const Scene::Until& until) {
   if (until.energy_ratio && *until.energy_ratio >= 1) return Forecast{.stop = Stop::energy};
   const auto rates = theory::mixture_rates(composition, volume, initial).collisions;
+  // No theory says how often rods are in contact of which some pass through each other.
+  if (composition.has_width() && !composition.all_meet()) return std::nullopt;
   const std::vector<double> contact = theory::contact_values(composition, volume);
   const double rate = std::inner_product(rates.begin(), rates.end(), contact.begin(), 0.0);
   if (!(rate > 0)) return at_rest(until);

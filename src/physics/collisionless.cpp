@@ -8,6 +8,8 @@ const char* words_for(Collisionless reason) {
       return "there are no needles";
     case Collisionless::one_needle:
       return "there is one needle";
+    case Collisionless::passing:
+      return "all needles pass through each other, as pairs.meet = false says";
     case Collisionless::alike:
       return "all needles move alike and do not rotate";
     case Collisionless::parallel:

@@ -16,7 +16,8 @@ namespace needlework {
 enum class Collisionless {
   no_needles,
   one_needle,
-  alike,  ///< no motion relative to each other
+  passing,  ///< all pass through each other
+  alike,    ///< no motion relative to each other
   parallel,
   normal_to_x,  ///< in planes
   normal_to_y,

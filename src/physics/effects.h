@@ -12,6 +12,7 @@ struct Effects {
   bool contact_time = false;  ///< the t_c rule
   bool table = false;         ///< lengths, masses, inertias and restitution depend on the species;
                               ///< otherwise length and mass are 1
+  bool passing = false;       ///< bodies of some species pass through each other
 
   bool width = false;    ///< rods of finite width
   bool spheres = false;  ///< all of these are spheres
@@ -23,7 +24,7 @@ struct Effects {
   bool stress = false;   ///< the pressure tensor is measured
 
   bool any() const {
-    return rough || contact_time || table || width || spheres || sliding || sources || kicks ||
+    return rough || contact_time || table || passing || width || spheres || sliding || sources || kicks ||
            gravity || shear || stress;
   }
 };

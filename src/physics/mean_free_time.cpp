@@ -48,12 +48,13 @@ double mean_free_time(const Composition& composition, double volume,
   double sum = 0, count = 0;
   for (std::size_t a = 0; a < composition.size(); ++a) {
     const Species& first = composition[a];
+    if (first.fixed) continue;
     const double count_a = static_cast<double>(first.count);
     count += count_a;
     for (std::size_t b = 0; b < composition.size(); ++b) {
       const Species& second = composition[b];
       const double count_b = static_cast<double>(second.count) - (a == b ? self : 0);
-      if (!(count_a > 0 && count_b > 0)) continue;
+      if (!(count_a > 0 && count_b > 0 && composition.meets(a, b))) continue;
       const SpeciesTemperatures &t_a = temperatures[a], &t_b = temperatures[b];
       const double flight = t_a.t_tr / first.mass + t_b.t_tr / second.mass;
       // Of the tips, whose distance from the centre is half a length.

@@ -97,6 +97,11 @@ void add_species(py::dict& out, const Composition& composition) {
   if (composition.has_width()) out["diameter"] = each(&Species::diameter);
   out["epsilon"] = pairs(&Restitution::epsilon);
   out["beta"] = pairs(&Restitution::beta);
+  std::vector<std::uint8_t> meet;
+  for (std::size_t a = 0; a < composition.size(); ++a) {
+    for (std::size_t b = 0; b < composition.size(); ++b) meet.push_back(composition.meets(a, b));
+  }
+  if (!composition.all_meet()) out["meet"] = read_only(meet.data(), {size, size});
 }
 
 runs::Limits of_scene(const Scene::Until& until) {
@@ -414,6 +419,7 @@ py::dict Run::facts() {
     out["length"] = composition[0].length;
     out["mass"] = composition[0].mass;
     if (composition.has_width()) out["diameter"] = composition[0].diameter;
+    if (!composition.all_meet()) out["meet"] = composition.meets(0, 0);
   }
   out["bodies"] = columns_of(bodies_of(composition));
   out["search"] = simulation.search();

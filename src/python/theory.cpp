@@ -74,7 +74,7 @@ py::tuple cooling(double epsilon, double k, double beta, double t_tr0, double t_
 // Arrays [species], and of each two [species][species]; the Python side has checked the shapes.
 Composition composition_of(const Column& counts, const Column& lengths, const Column& masses,
                            const Column& ks, const Column& diameters, const Column& epsilons,
-                           const Column& betas) {
+                           const Column& betas, const Column& meet) {
   const auto size = static_cast<std::size_t>(counts.size());
   std::vector<Species> species(size);
   for (std::size_t n = 0; n < size; ++n) {
@@ -88,6 +88,7 @@ Composition composition_of(const Column& counts, const Column& lengths, const Co
   for (std::size_t a = 0; a < size; ++a) {
     for (std::size_t b = a; b < size; ++b) {
       out.set_restitution(a, b, {epsilons.data()[a * size + b], betas.data()[a * size + b]});
+      out.set_meets(a, b, meet.data()[a * size + b] != 0);
     }
   }
   return out;
@@ -103,10 +104,10 @@ std::vector<theory::Temperatures> temperatures_of(const Column& t_tr, const Colu
 // temperatures of each.
 py::tuple mixture_rates(const Column& counts, const Column& lengths, const Column& masses,
                         const Column& ks, const Column& diameters, const Column& epsilons,
-                        const Column& betas, double volume, const Column& t_tr,
-                        const Column& t_rot) {
+                        const Column& betas, const Column& meet, double volume,
+                        const Column& t_tr, const Column& t_rot) {
   const Composition composition =
-      composition_of(counts, lengths, masses, ks, diameters, epsilons, betas);
+      composition_of(counts, lengths, masses, ks, diameters, epsilons, betas, meet);
   const auto now = temperatures_of(t_tr, t_rot);
   const theory::MixtureRates rates = theory::mixture_rates(composition, volume, now);
   const auto size = static_cast<py::ssize_t>(composition.size());
@@ -124,10 +125,10 @@ py::tuple mixture_rates(const Column& counts, const Column& lengths, const Colum
 // Temperatures of each species at each time, [times][species].
 py::tuple mixture_cooling(const Column& counts, const Column& lengths, const Column& masses,
                           const Column& ks, const Column& diameters, const Column& epsilons,
-                          const Column& betas, double volume, const Column& t_tr0,
-                          const Column& t_rot0, const Column& times) {
+                          const Column& betas, const Column& meet, double volume,
+                          const Column& t_tr0, const Column& t_rot0, const Column& times) {
   const Composition composition =
-      composition_of(counts, lengths, masses, ks, diameters, epsilons, betas);
+      composition_of(counts, lengths, masses, ks, diameters, epsilons, betas, meet);
   const auto initial = temperatures_of(t_tr0, t_rot0);
   std::vector<std::vector<theory::Temperatures>> curve;
   without_lock([&] {

@@ -64,6 +64,10 @@ Json pairs_of(const Composition& composition, const Restitution& usual) {
   for (std::size_t a = 0; a < composition.size(); ++a) {
     for (std::size_t b = a; b < composition.size(); ++b) {
       const Restitution& rule = composition.restitution(a, b);
+      if (!composition.meets(a, b)) {
+        out.push_back({{"name", pair_name(composition, a, b)}, {"meet", false}});
+        continue;
+      }
       if (rule == usual) continue;
       out.push_back(
           {{"name", pair_name(composition, a, b)}, {"epsilon", rule.epsilon}, {"beta", rule.beta}});

@@ -60,7 +60,7 @@ namespace {
 
 // The first line. Its number is to be changed whenever what is saved changes, here or in any
 // function `transfer`. The version is there because the trajectory may change without that.
-constexpr std::string_view mark = "needlework checkpoint 9 of " NEEDLEWORK_VERSION "\n";
+constexpr std::string_view mark = "needlework checkpoint 10 of " NEEDLEWORK_VERSION "\n";
 
 constexpr std::string_view checkpoint_ending = ".checkpoint";
 constexpr std::string_view older_ending = ".old";

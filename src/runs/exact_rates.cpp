@@ -84,8 +84,10 @@ std::vector<double> initial_rates_of(const LoadedScene& loaded, const Compositio
   return !loaded.initial && put_between_walls(scene, start, rates) ? rates : open;
 }
 
+// Species that do not meet may each keep an energy of their own.
 bool has_exact_equilibrium(const Scene& scene) {
-  return starts_in_equilibrium(scene) && !scene.composition().has_width();
+  const Composition composition = scene.composition();
+  return starts_in_equilibrium(scene) && !composition.has_width() && composition.all_meet();
 }
 
 }  // namespace

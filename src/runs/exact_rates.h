@@ -27,8 +27,8 @@ bool starts_in_equilibrium(const Scene& scene);
 /// Collisions of each two species per time in a gas that starts in equilibrium, by
 /// Composition::pair_index, at this energy per needle, or at the temperature of its heat bath:
 /// exact for any number of needles, with walls along one axis too. Empty where that is not known:
-/// of rods of finite width, between walls along several axes, and of a gas that does not start in
-/// equilibrium. [1 / time]
+/// of rods of finite width, between walls along several axes, where some species pass through each
+/// other, and of a gas that does not start in equilibrium. [1 / time]
 std::vector<double> equilibrium_rates_by_pair(const Scene& scene, double energy);
 /// The same as collisions that a needle takes part in, on average over all needles; NaN where it is
 /// not known. [1 / time]

@@ -25,6 +25,7 @@ std::vector<Rule> rules_of(const Scene& scene, const Composition& composition) {
   std::vector<Rule> out;
   for (std::size_t a = 0; a < composition.size(); ++a) {
     for (std::size_t b = a; b < composition.size(); ++b) {
+      if (!composition.meets(a, b)) continue;
       const Restitution& rule = composition.restitution(a, b);
       const bool is_known =
           std::ranges::any_of(out, [&](const Rule& other) { return other.restitution == rule; });

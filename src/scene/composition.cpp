@@ -43,6 +43,12 @@ Composition Scene::composition() const {
     if (a >= species.size() || b >= species.size()) continue;  // refused where scenes are checked
     out.set_restitution(
         a, b, {pair.epsilon.value_or(everywhere.epsilon), pair.beta.value_or(everywhere.beta)});
+    out.set_meets(a, b, pair.meet);
+  }
+  for (std::size_t a = 0; a < out.size(); ++a) {
+    for (std::size_t b = 0; b <= a; ++b) {
+      if (out[a].fixed && out[b].fixed) out.set_meets(a, b, false);
+    }
   }
   return out;
 }

@@ -268,7 +268,7 @@ Insertion insert_rods(const Scene& scene, std::uint64_t most_tries, double most_
   const std::size_t rods = members.species.size();
   Insertion out{without_velocities(scene, rods), 0, 0};
   const std::array<Gap, 3> gaps = gaps_of(scene);
-  RodGrid grid(members.shapes(), box_at_start(scene));
+  RodGrid grid(members.composition, members.shapes(), box_at_start(scene));
   for (const std::size_t id : largest_first(members)) {
     NeedleRandom random(scene.needles.seed, id);
     bool placed = false;

@@ -39,7 +39,8 @@ double gap_of(const kernels::RodPair& pair, const Vec3d& apart, double reach) {
 
 }  // namespace
 
-RodGrid::RodGrid(std::span<const RodShape> rods, const Box& box) : box_(box) {
+RodGrid::RodGrid(const Composition& composition, std::span<const RodShape> rods, const Box& box)
+    : composition_(composition), box_(box) {
   std::vector<double> extents;
   for (const RodShape& rod : rods) extents.push_back(rod.extent());
   std::ranges::sort(extents, std::ranges::greater());
@@ -143,6 +144,7 @@ void RodGrid::visit_overlaps(const std::array<double, 3>& centre,
   const kernels::Flight flight = at_rest(centre, director);
   const auto compare = [&](std::uint32_t i) {
     const Rod& other = rods_[i];
+    if (composition_.may_overlap(rod.species, other.shape.species)) return;
     const Vec3d apart = flight.r - other.flight.r;
     const Vec3dd shift = box_.image<DoubleDouble>(box_.nearest(apart)).place;
     const Vec3d nearest = apart - to_double(shift);

@@ -22,12 +22,12 @@ struct RodShape {
   double extent() const { return length + diameter; }  ///< from end to end [L]
 };
 
-/// Rods in a box, entered one after the other.
+/// Rods in a box, entered one after the other. Those that pass through each other do not overlap.
 class RodGrid {
  public:
-  /// For these rods. Every edge of the box is at least twice the largest extent along periodic
-  /// axes.
-  RodGrid(std::span<const RodShape> rods, const Box& box);
+  /// For these rods of these species, which must outlive the grid. Every edge of the box is at least
+  /// twice the largest extent along periodic axes.
+  RodGrid(const Composition& composition, std::span<const RodShape> rods, const Box& box);
 
   /// A rod that overlaps one that has been entered.
   struct Overlap {
@@ -73,6 +73,7 @@ class RodGrid {
 
   Level& level_of(const RodShape& rod);
 
+  const Composition& composition_;
   Box box_;
   std::vector<Level> levels_;  ///< the longest rods first
   std::vector<Rod> rods_;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "src/composition/convex_body.h"
@@ -52,21 +53,31 @@ double densest_packing(const Composition& composition) {
 }
 
 double estimated_tries(const Composition& composition, double volume) {
-  std::vector<Species> species = composition.species();
-  std::ranges::stable_sort(species, std::ranges::greater(),
-                           [](const Species& s) { return excluded_volume(s, s); });
+  std::vector<std::size_t> order(composition.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t n) {
+    return excluded_volume(composition[n], composition[n]);
+  });
   constexpr int parts = 16;
-  ConvexBody fluid;
-  double number = 0, tries = 0, count = 0;
-  for (const Species& each : species) {
+  // What is in the way of each species: those that it meets.
+  std::vector<ConvexBody> fluid(composition.size());
+  std::vector<double> number(composition.size());
+  double tries = 0, count = 0;
+  for (const std::size_t n : order) {
+    const Species& each = composition[n];
     const ConvexBody body = convex_body(each);
     const double part = static_cast<double>(each.count) / parts;
-    for (int n = 0; n < parts && part > 0; ++n) {
-      add(fluid, body, 0.5 * part / volume);
-      number += 0.5 * part / volume;
-      tries += part * tries_among(body, fluid, number);
-      add(fluid, body, 0.5 * part / volume);
-      number += 0.5 * part / volume;
+    const auto add_half = [&] {
+      for (std::size_t other = 0; other < composition.size(); ++other) {
+        if (!composition.meets(n, other)) continue;
+        add(fluid[other], body, 0.5 * part / volume);
+        number[other] += 0.5 * part / volume;
+      }
+    };
+    for (int i = 0; i < parts && part > 0; ++i) {
+      add_half();
+      tries += part * tries_among(body, fluid[n], number[n]);
+      add_half();
     }
     count += static_cast<double>(each.count);
   }

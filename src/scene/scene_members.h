@@ -34,10 +34,11 @@ void visit_species(Species& species, Visit&& visit) {
 /// The same for each member of Scene::Pair.
 template <class Pair, class Visit>
 void visit_pair(Pair& pair, Visit&& visit) {
-  auto& [between, epsilon, beta] = pair;
+  auto& [between, epsilon, beta, meet] = pair;
   visit("pairs", "between", between);
   visit("pairs", "epsilon", epsilon);
   visit("pairs", "beta", beta);
+  visit("pairs", "meet", meet);
 }
 
 /// The same for each member of Scene::WallMotion.

@@ -185,7 +185,7 @@ void MixtureLaw::add(const Pair& pair, std::span<const Temperatures> now, Mixtur
   const double count_a = static_cast<double>(a.count), count_b = static_cast<double>(b.count);
   const bool alike = pair.first == pair.second;
   double pairs = alike ? count_a * (count_a - 1) / 2 : count_a * count_b;
-  if (!(pairs > 0)) return;
+  if (!(pairs > 0 && composition_.meets(pair.first, pair.second))) return;
   const std::size_t index = composition_.pair_index(pair.first, pair.second);
   if (!contact_.empty()) pairs *= contact_[index];
   out.collisions[index] = pairs * rate / volume_;

@@ -10,6 +10,7 @@ double second_virial(const Composition& composition) {
   double out = 0;
   for (std::size_t a = 0; a < composition.size(); ++a) {
     for (std::size_t b = 0; b < composition.size(); ++b) {
+      if (!composition.meets(a, b)) continue;
       const double share = static_cast<double>(composition[a].count) / count *
                            (static_cast<double>(composition[b].count) / count);
       out += share * 0.5 * excluded_volume(composition[a], composition[b]);

@@ -31,7 +31,7 @@ std::string model_of(const Effects& effects) {
 TEST(ModelChoice, LeavesNoEffectOut) {
   EXPECT_EQ(model_of({}), "plain");
   bool Effects::*const all[] = {&Effects::rough,   &Effects::contact_time, &Effects::table,
-                                &Effects::width,   &Effects::spheres,      &Effects::sliding,
+                                &Effects::passing, &Effects::width,   &Effects::spheres,      &Effects::sliding,
                                 &Effects::sources, &Effects::kicks,        &Effects::gravity,
                                 &Effects::shear,   &Effects::stress};
   static_assert(sizeof(Effects) == sizeof all / sizeof all[0], "an effect is missing above");

@@ -33,7 +33,7 @@ int overlaps(const Scene& scene, const State& state, double tolerance) {
   std::vector<RodShape> shapes;
   for (const SpeciesIndex its : composition.in_order_of_id(state.species))
     shapes.push_back({composition[its].length, composition[its].diameter, its});
-  RodGrid grid(shapes, box_of(state));
+  RodGrid grid(composition, shapes, box_of(state));
   int out = 0;
   for (std::size_t i = 0; i < state.size(); ++i) {
     out += grid.overlap(state.position[i], state.orientation[i], shapes[i], tolerance).has_value();

@@ -111,6 +111,10 @@ class DynamoWriter : public FrameWriter {
 };
 
 void DynamoWriter::require_known_bodies() const {
+  if (!composition_.all_meet()) {
+    throw InputError(fmt::format(
+        "{}: pairs that pass through each other: expected species that all meet", path_));
+  }
   if (spheres_) return;
   const auto is_needle = [](const Species& each) { return each.turns() && each.diameter == 0; };
   const auto is_sphere = [](const Species& each) { return !each.turns(); };

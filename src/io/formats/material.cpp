@@ -77,8 +77,8 @@ double value_at(const std::vector<double>& values, std::size_t i, double otherwi
 }  // namespace
 
 static void transfer(Archive& archive, Material& material) {
-  auto& [names, length, mass, k, diameter, epsilon, beta, walls, gravity] = material;
-  archive(names, length, mass, k, diameter, epsilon, beta, walls, gravity);
+  auto& [names, length, mass, k, diameter, epsilon, beta, meet, walls, gravity] = material;
+  archive(names, length, mass, k, diameter, epsilon, beta, meet, walls, gravity);
 }
 
 static Material read_material_here(const std::string& path) {
@@ -94,6 +94,7 @@ static Material read_material_here(const std::string& path) {
   material.k = read_positive(source, "/parameters/k");
   material.epsilon = read_numbers(source, "/parameters/epsilon");
   material.beta = read_numbers(source, "/parameters/beta");
+  material.meet = read_numbers(source, "/parameters/meet");
   material.names = read_texts(source, "/parameters/species");
   read_surroundings(source, material);
   composition_of(material, path);
@@ -187,7 +188,8 @@ Composition composition_of(const Material& material, const std::string& path) {
                                  values->size(), name, count));
   }
   for (const auto& [name, values] :
-       {std::pair("epsilon", &material.epsilon), std::pair("beta", &material.beta)}) {
+       {std::pair("epsilon", &material.epsilon), std::pair("beta", &material.beta),
+        std::pair("meet", &material.meet)}) {
     if (fits(*values, count * count)) continue;
     throw InputError(
         fmt::format("{}: {} numbers of {}: expected one, or {}, one for each two "
@@ -200,6 +202,7 @@ Composition composition_of(const Material& material, const std::string& path) {
       out.set_restitution(a, b,
                           {value_at(material.epsilon, a * count + b, 1),
                            value_at(material.beta, a * count + b, -1)});
+      out.set_meets(a, b, value_at(material.meet, a * count + b, 1) != 0);
     }
   }
   return out;

@@ -21,6 +21,8 @@ struct Material {
   std::vector<double> diameter = {};  ///< of each species of rods; none for thin needles [L]
   /// Normal and tangential restitution: one for all, or one for each two species, in rows [1].
   std::vector<double> epsilon = {}, beta = {};
+  /// 0 for each two species that pass through each other, in rows.
+  std::vector<double> meet = {};
   /// What ends the box along axes that are not periodic, and what acts on all needles.
   std::vector<Scene::Wall> walls = {};
   std::array<double, 3> gravity{};  ///< [L / time^2]

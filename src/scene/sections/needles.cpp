@@ -60,7 +60,7 @@ std::optional<Violation> numbers_cannot_be_followed(const Scene& scene) {
 
 std::optional<Violation> rods_fill_more_than_any_packing(const Scene& scene) {
   const Composition composition = scene.composition();
-  if (!composition.has_width()) return {};
+  if (!composition.has_width() || !composition.all_meet()) return {};
   // There is room beyond the edge of the box.
   if (std::ranges::any_of(gaps_of(scene), &Gap::is_open)) return {};
   const auto& box = scene.needles.box;

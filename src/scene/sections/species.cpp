@@ -145,6 +145,19 @@ std::optional<Violation> pair_occurs_twice(const Scene& scene) {
   return {};
 }
 
+std::optional<Violation> pair_that_never_meets_collides(const Scene& scene) {
+  for (std::size_t n = 0; n < scene.pairs.size(); ++n) {
+    const Scene::Pair& pair = scene.pairs[n];
+    if (pair.meet || !(pair.epsilon || pair.beta)) continue;
+    return Violation{.key = key_of_entry("pairs.meet", n),
+                     .value = "false",
+                     .reason = "expected either meet = false or epsilon and beta, not both: bodies "
+                               "that pass through each other have no rule of collisions",
+                     .or_keys = {key_of_entry("pairs.epsilon", n), key_of_entry("pairs.beta", n)}};
+  }
+  return {};
+}
+
 std::optional<Violation> species_do_not_add_up(const Scene& scene) {
   if (scene.composition().count() == scene.needles.count) return {};
   return Violation{.key = "species", .value = {}, .reason = "expected the count of [needles]"};
@@ -242,8 +255,15 @@ SceneSection pairs_section() {
                [](Scene& s, V v, R r) { return store(s.pairs.back().epsilon, number(v, r)); }},
               {"beta", Aspect::effects, tangential_restitutions, expected_beta,
                [](Scene& s, V v, R r) { return store(s.pairs.back().beta, number(v, r)); }},
+              {"meet",
+               Aspect::effects,
+               {},
+               "true or false",
+               [](Scene& s, V v, R) { return store(s.pairs.back().meet, truth(v)); }},
           },
-      .rules = {{Aspect::species, pair_occurs_twice}, {Aspect::pairs, pair_is_of_no_species}},
+      .rules = {{Aspect::species, pair_occurs_twice},
+                {Aspect::pairs, pair_is_of_no_species},
+                {Aspect::effects, pair_that_never_meets_collides}},
       .entries = entries_in<&Scene::pairs>(most_species * (most_species + 1) / 2),
   };
 }

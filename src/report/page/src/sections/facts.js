@@ -168,7 +168,7 @@ export function factsOfRun({ scene, parameters, frames }) {
       ...drivingFacts(scene.driving),
       ["Density n L³", openSides(frames).length || scene.packing_fraction !== null ? null : (frames.needles_in_file * scene.length ** 3) / volume],
       ["Restitution ε, β", `${numberText(scene.epsilon)}, ${numberText(scene.beta)}`],
-      ...scene.pairs.map(({ name, epsilon, beta }) => [`Restitution of ${name}`, `${numberText(epsilon)}, ${numberText(beta)}`]),
+      ...scene.pairs.map(({ name, meet, epsilon, beta }) => [`Restitution of ${name}`, meet === false ? "none: they pass through each other" : `${numberText(epsilon)}, ${numberText(beta)}`]),
       ...(scene.species.length ? scene.species.map(speciesFact) : ofOneSpecies(scene)),
       ["Packing fraction", scene.packing_fraction],
       ["Initial state", scene.initial_file || (scene.species.length ? "drawn" : `drawn, T_tr = ${numberText(scene.t_tr)}, T_rot = ${numberText(scene.t_rot)}`)],
