@@ -50,7 +50,7 @@ std::vector<AuditedBody> bodies_of(const Composition& composition, double unit) 
   for (const Species& each : composition.species()) {
     out.push_back({.species = out.size(),
                    .length = each.length / unit,
-                   .mass = each.mass,
+                   .mass = each.mass_or_infinity(),
                    .k = each.k,
                    .diameter = each.diameter / unit});
   }
@@ -79,7 +79,8 @@ AuditedBody own_body(const OwnBodies& own, std::size_t i, AuditedBody body, doub
   body.length = length / unit;
   body.diameter = own.diameter.at(i) / unit;
   body.mass = own.mass.at(i);
-  if (length > 0) body.k = body.mass * (length * length) / (2 * inertia);
+  if (length > 0 && std::isfinite(inertia))
+    body.k = body.mass * (length * length) / (2 * inertia);
   return body;
 }
 
@@ -349,9 +350,9 @@ void Audit::check_kick(const Instant& now, const std::vector<Needle>& after) {
   std::vector<Kicks::Change> changes;
   for (Index i = 0; i < needles_.size(); ++i) {
     const Kicks::Change& change = changes.emplace_back(kicks_->of(ids_[i], findings_.kicks));
-    const Quad its_mass = needles_[i].body.mass;
+    const Quad its_mass = needles_[i].body.moving_mass();
     of_all.v = of_all.v + change.v * its_mass;
-    of_all.v_off += change.v_off * needles_[i].body.mass;
+    of_all.v_off += change.v_off * needles_[i].body.moving_mass();
     mass += its_mass;
     largest = std::max(largest, magnitude(norm(change.v)));
   }

@@ -53,7 +53,7 @@ double Audit::energy() const {
   }
   long double sum = energy_of(needles_);
   for (const Needle& needle : needles_) {
-    sum += needle.body.mass * dot(weight, lowest - needle.record.r);
+    sum += needle.body.moving_mass() * dot(weight, lowest - needle.record.r);
   }
   return static_cast<double>(sum);
 }
@@ -125,11 +125,11 @@ void Audit::check_start(const Scene& scene, const State* given) {
     Vector<double> momentum{};
     double most = 0;
     for (const Needle& needle : needles) {
-      momentum = momentum + needle.record.v * needle.body.mass;
-      most += needle.body.mass * norm(needle.record.v);
+      momentum = momentum + needle.record.v * needle.body.moving_mass();
+      most += needle.body.moving_mass() * norm(needle.record.v);
     }
     right = near(found_tr, t_tr, sums) && near(found_rot, t_rot, sums) &&
-            (needles_.size() < 2 || norm(momentum) <= sums * most);
+            (needles_.size() < 2 || composition.has_fixed() || norm(momentum) <= sums * most);
   }
   const double usual = windows_.usual_time();
   if (follows_windows() && std::isfinite(usual))

@@ -22,11 +22,17 @@ struct AuditedBody {
   double length = 1, mass = 1, k = 6;
   double diameter = 0;  ///< 0 of thin needles
 
+  /// Its mass in sums over all that move: 0 of fixed ones, whose mass is infinite.
+  double moving_mass() const { return std::isinf(mass) ? 0 : mass; }
   double extent() const { return length + diameter; }  ///< from end to end [L]
+  template <class Real>
+  Real inverse_mass() const {
+    return std::isinf(mass) ? Real(0) : 1 / Real(mass);
+  }
   /// I = m L^2 / (2 k); spheres, whose length is 0, do not turn.
   template <class Real>
   Real inverse_inertia() const {
-    if (length == 0) return Real(0);
+    if (length == 0 || std::isinf(mass)) return Real(0);
     return 2 * Real(k) / Real(mass) / (Real(length) * length);
   }
 };

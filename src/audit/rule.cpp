@@ -157,7 +157,7 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
   // M = (1/m1 + 1/m2) 1 + (s12^2/I1)(1 - u1 u1) + (s21^2/I2)(1 - u2 u2), and the right-hand side.
   std::array<Quad, 2> inverse_mass, inverse_inertia;
   for (int i = 0; i < 2; ++i) {
-    inverse_mass[i] = Quad(1) / Quad(bodies[i].mass);
+    inverse_mass[i] = bodies[i].inverse_mass<Quad>();
     inverse_inertia[i] = bodies[i].inverse_inertia<Quad>();
   }
   const Quad masses = inverse_mass[0] + inverse_mass[1];

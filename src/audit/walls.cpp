@@ -149,7 +149,7 @@ double excess_over_wall_rule(const Needle& needle, const Vector<double>& gravity
   const Vector<Quad> turn = cross(there.w, there.u);
   const Quad tip = n * (there.v[wall.axis] + turn[wall.axis] * arm);
   const Quad vn = tip - n * surface;
-  const Quad inverse_mass = Quad(1) / Quad(body.mass);
+  const Quad inverse_mass = body.inverse_mass<Quad>();
   const Quad inverse_inertia = body.inverse_inertia<Quad>();
   const Quad give = inverse_mass + inverse_inertia * arm * arm * (1 - lift * lift);
 

@@ -34,7 +34,7 @@ std::vector<Temperatures> temperatures_of(std::span<const Needle> needles,
     const auto v = to<long double>(needle.record.v), w = to<long double>(needle.record.w);
     Squares& sum = sums[needle.body.species];
     ++sum.count;
-    const long double mass = needle.body.mass, length = needle.body.length, k = needle.body.k;
+    const long double mass = needle.body.moving_mass(), length = needle.body.length, k = needle.body.k;
     sum.v2 += mass * dot(v, v);
     sum.w2 += mass * length * length / k * dot(w, w);
   }
@@ -54,7 +54,7 @@ double energy_of(std::span<const Needle> needles) {
   for (const Needle& needle : needles) {
     const auto v = to<long double>(needle.record.v), w = to<long double>(needle.record.w);
     const long double length = needle.body.length;
-    sum += needle.body.mass * (dot(v, v) + length * length / (2 * needle.body.k) * dot(w, w)) / 2;
+    sum += needle.body.moving_mass() * (dot(v, v) + length * length / (2 * needle.body.k) * dot(w, w)) / 2;
   }
   return static_cast<double>(sum);
 }
@@ -122,6 +122,7 @@ double mean_free_time(std::span<const Temperatures> gas, std::span<const Audited
       std::ranges::none_of(bodies, [](const AuditedBody& b) { return b.diameter > 0; });
   double collisions = 0, count = 0;  // those of a needle with each other, both counted
   for (std::size_t a = 0; a < gas.size(); ++a) {
+    if (composition[a].fixed) continue;
     count += gas[a].count;
     for (std::size_t b = 0; b < gas.size(); ++b) {
       const double partners = gas[b].count - (a == b && !thin ? 1 : 0);

@@ -124,7 +124,8 @@ StepAndTime make_needles(hid_t group, const Scene& scene, std::vector<std::uint8
   for (const auto& [name, column] : {std::pair("length", &own.length),
                                      {"diameter", &own.diameter},
                                      {"inertia", &own.inertia}}) {
-    if (!column->empty()) hdf5::write_array<double>(group, name, {count}, *column, place);
+    const bool is_thin = column == &own.diameter && !composition.has_width();
+    if (!column->empty() && !is_thin) hdf5::write_array<double>(group, name, {count}, *column, place);
   }
   hdf5::write_array<std::uint8_t>(group, "species", {count}, species, place);
   return shared;
