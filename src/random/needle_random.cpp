@@ -29,13 +29,13 @@ double natural_log(double x) {
   return exponent * ln2_high + (2 * f + (2 * f * square * series + exponent * ln2_low));
 }
 
-double NeedleRandom::uniform() {
+std::uint64_t NeedleRandom::bits() {
   if (used_ == words_.size()) {
     const auto words = r123::Philox4x64()({{block_++, id_, count_, purpose_}}, {{seed_, 0}});
     for (std::size_t i = 0; i < words_.size(); ++i) words_[i] = words[i];
     used_ = 0;
   }
-  return static_cast<double>(words_[used_++] >> 11) * 0x1p-53;
+  return words_[used_++] >> 11;
 }
 
 NeedleRandom::DiscPoint NeedleRandom::disc_point() {

@@ -24,7 +24,8 @@ enum class RandomFor : std::uint64_t {
   thermostat,
   kick,
   velocities_of_rods,
-  boltzmann
+  boltzmann,
+  size  ///< `count` is which of its sizes
 };
 
 /// A stream of deviates: Philox-4x64-10 (Salmon et al., SC 2011) with the seed as key and (block,
@@ -38,8 +39,11 @@ class NeedleRandom {
   NeedleRandom(std::uint64_t seed, std::uint64_t id, RandomFor purpose, std::uint64_t count)
       : seed_(seed), id_(id), count_(count), purpose_(static_cast<std::uint64_t>(purpose)) {}
 
+  /// 53 random bits, as a number below 2^53.
+  std::uint64_t bits();
+
   /// Uniform on [0, 1), a multiple of 2^-53.
-  double uniform();
+  double uniform() { return static_cast<double>(bits()) * 0x1p-53; }
 
   /// Uniform on the unit sphere, with length 1 within 2 ulp (Marsaglia, Ann. Math. Stat. 43, 645).
   std::array<double, 3> direction();

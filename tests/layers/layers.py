@@ -22,10 +22,11 @@ LAYERS = [
     Layer("base", [], ["error.h"]),
     Layer("memory", ["src/memory"], []),
     Layer("machine", ["src/machine"], []),
-    Layer("composition", ["src/composition"], ["composition.h"]),
-    Layer("random", ["src/random"], []),
     Layer("archive", ["src/archive"], [], ["base"]),
     Layer("kernels", ["kernels"], ["accuracy.h"], ["base", "memory"]),
+    # Functions with the same bits everywhere are double-double, and sizes are drawn by them.
+    Layer("random", ["src/random"], [], ["kernels"]),
+    Layer("composition", ["src/composition"], ["composition.h", "distribution.h"], ["random"]),
     # Where the needles of a state are, the box and its images.
     Layer("box", ["src/box"], ["state.h"], ["kernels"]),
     Layer("theory", ["src/theory"], ["theory.h", "diffusion.h"], ["base", "composition"]),
