@@ -56,6 +56,14 @@ TEST(NeedleRandom, IsAnotherForEachPurposeAndCount) {
             NeedleRandom(9, 5).uniform());
 }
 
+// What is drawn for one purpose must not change when another one is added.
+TEST(NeedleRandom, KeepsTheNumbersOfPurposes) {
+  EXPECT_EQ(static_cast<int>(RandomFor::boltzmann), 5);
+  EXPECT_EQ(static_cast<int>(RandomFor::size), 6);
+  const auto words = r123::Philox4x64()({{0, 5, 1, 6}}, {{9, 0}});
+  EXPECT_EQ(NeedleRandom(9, 5, RandomFor::size, 1).bits(), words[0] >> 11);
+}
+
 // Tolerances: five standard errors.
 TEST(NeedleRandom, ExponentialNumbersHaveMeanAndVarianceOne) {
   constexpr int count = 100000;
