@@ -77,8 +77,16 @@ NEEDLEWORK_INLINE V3 rough_segment_gap(const V3& r, const V3& u1, const V3& u2,
   return subtract_scaled(add_scaled(r, u1, s), u2, t);
 }
 
-Scan overlapping(const Surroundings& around, const Seeker& seeker, float radius,
-                 const Found& found) {
+/// `seeker.longest_half` of the needles in these lanes.
+NEEDLEWORK_INLINE Floats reach_of(const Surroundings& around, const NeedleBlock& block,
+                                  std::size_t lane, Floats longest_half) {
+  const auto b = static_cast<std::size_t>(&block - around.blocks);
+  return longest_half + load_floats(around.reaches[b].reach + lane);
+}
+
+template <bool differ>
+Scan overlapping_as(const Surroundings& around, const Seeker& seeker, float radius,
+                    const Found& found) {
   const Floats base(around.format.base);
   const V3 r = on_scale_of_words(seeker.r, around.format), u = broadcast(seeker.u);
   // Along each axis the places of both capsules are off by half a step each, and subtracting them
@@ -88,8 +96,8 @@ Scan overlapping(const Surroundings& around, const Seeker& seeker, float radius,
   // What rough_segment_gap() may add. Capsules wider than a quarter unit may overlap with centres
   // farther apart, where it adds more; the square grows faster by the margin of lengths.
   const Floats near_squared(near * near + 0x1p-14f);
-  const HalfLengths<Floats> half =
-      half_lengths(Floats(seeker.motion.half), Floats(seeker.longest_half));
+  const Floats own_half(seeker.motion.half), longest_half(seeker.longest_half);
+  const HalfLengths<Floats> half_of_longest = half_lengths(own_half, longest_half);
   const auto test = [&](const NeedleBlock& block, std::size_t lane,
                         const float* offset) NEEDLEWORK_TARGET {
     const V3 from{r.x - Floats(offset[0]), r.y - Floats(offset[1]), r.z - Floats(offset[2])};
@@ -97,6 +105,9 @@ Scan overlapping(const Surroundings& around, const Seeker& seeker, float radius,
     const V3 d = from - places_of(words, base);
     const V3 a = V3{signed_numbers(words.x), signed_numbers(words.y), signed_numbers(words.z)} *
                  Floats(0x1p-31f);
+    HalfLengths<Floats> half = half_of_longest;
+    if constexpr (differ)
+      half = half_lengths(own_half, reach_of(around, block, lane, longest_half));
     // A cheaper test before this one does not pay: of many needles one would nearly always pass it.
     const V3 gap = rough_segment_gap(d, u, a, half);
     return dot(gap, gap) <= near_squared;
@@ -104,7 +115,14 @@ Scan overlapping(const Surroundings& around, const Seeker& seeker, float radius,
   return scan(around, seeker, found, test);
 }
 
-Scan approaching(const Surroundings& around, const Seeker& seeker, const Found& found) {
+Scan overlapping(const Surroundings& around, const Seeker& seeker, float radius,
+                 const Found& found) {
+  return around.reaches ? overlapping_as<true>(around, seeker, radius, found)
+                        : overlapping_as<false>(around, seeker, radius, found);
+}
+
+template <bool differ>
+Scan approaching_as(const Surroundings& around, const Seeker& seeker, const Found& found) {
   const Floats base(around.format.base);
   const V3 r = on_scale_of_words(seeker.motion.r, around.format), v = broadcast(seeker.motion.v);
   const Floats now(seeker.now), ahead(seeker.ahead), zero(0.0f);
@@ -117,9 +135,14 @@ Scan approaching(const Surroundings& around, const Seeker& seeker, const Found& 
   const Floats reach =
       Floats(seeker.motion.half + seeker.longest_half + seeker.margin + rounding + 0x1p-10f) +
       norm_1(v) * Floats(0x1p-17f);
-  const Floats reach_squared = reach * reach * Floats(1 + 0x1p-10f);
+  const Floats reach_of_longest = reach * reach * Floats(1 + 0x1p-10f);
   const auto test = [&](const NeedleBlock& block, std::size_t lane,
                         const float* offset) NEEDLEWORK_TARGET {
+    Floats reach_squared = reach_of_longest;
+    if constexpr (differ) {
+      const Floats its = reach_of(around, block, lane, reach);
+      reach_squared = its * its * Floats(1 + 0x1p-10f);
+    }
     const V3 from{r.x - Floats(offset[0]), r.y - Floats(offset[1]), r.z - Floats(offset[2])};
     // A word is a velocity as it is.
     const V3 other_v = load_words(block, lane);
@@ -135,6 +158,11 @@ Scan approaching(const Surroundings& around, const Seeker& seeker, const Found& 
     return !((c > zero) & (c_then > zero) & apart_between);
   };
   return scan(around, seeker, found, test);
+}
+
+Scan approaching(const Surroundings& around, const Seeker& seeker, const Found& found) {
+  return around.reaches ? approaching_as<true>(around, seeker, found)
+                        : approaching_as<false>(around, seeker, found);
 }
 
 /// How much segment_gap() may be too large for the rough quotient of its first guess, squared:

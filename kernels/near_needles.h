@@ -55,6 +55,9 @@ struct Surroundings {
   std::size_t cell_count;
   WordFormat format;                ///< of the words in the blocks
   const Motion* motions = nullptr;  ///< of all needles, if those of found ones are to be prefetched
+  /// Of bodies that differ: how much longer half the length of each is than Seeker::longest_half,
+  /// in the lanes of its block; null where that is the bound for all. [unit of length]
+  const BlockReaches* reaches = nullptr;
 };
 
 /// Needles found in the cells, in columns with room for one block more than there are needles.
@@ -71,7 +74,8 @@ struct Seeker {
   float ahead;       ///< how far it searches
   float margin;      ///< margin_of_lengths(); does not cover words
   /// Half the length of the longest needle, which each other one may have; for approaching(), the
-  /// largest distance of axes in contact more.
+  /// largest distance of axes in contact more. Where there are Surroundings::reaches, they come on
+  /// top of it.
   float longest_half;
   std::uint32_t needle;  ///< itself; not reported, nor its images
   float axis_half = 0;   ///< half the length of the capsule's axis, or of the path

@@ -95,4 +95,9 @@ struct alignas(64) NeedleBlock {
   bool is_full() const { return needle[block_size - 1] != none; }
 };
 
+/// How far each needle of a block reaches, where they differ.
+struct alignas(64) BlockReaches {
+  float reach[block_size] = {};  ///< [unit of length]
+};
+
 }  // namespace needlework::kernels

@@ -137,6 +137,8 @@ template <class Volume>
   const bool crosses = enter(own, i, placed.cell);
   places[i].next_event = gas.clock.add(now, placed.stay);
   motions[i].half = static_cast<float>(needle.half_length * frame.per_length);
+  if (own.cells.differ())
+    own.cells.set_reach(places[i].slot, Volume::reach_of(motions[i].half, distances.half_width(i)));
   assert(fits_words(*this, i, placed.centre));
   write_entry<Volume>(own, i, placed.centre, placed.direction, now);
   set_motion(i, needle.motion.start, needle.path, now);

@@ -15,7 +15,7 @@ ClassCells::ClassCells(const MotionFrame& frame, const SizeClass& sizes, const C
       grid(its_grid),
       overlap(with_volume(kind, [&](auto volume) { return volume.overlap_of(its_grid); })),
       ahead(overlap * with_volume(kind, [](auto volume) { return volume.ahead; })),
-      cells(grid.size(), sizes.count) {
+      cells(grid.size(), sizes.count, frame.gas.has_own_bodies()) {
   const auto sides = grid.sides();
   const double side = std::max({sides[0], sides[1], sides[2]});
   most_fallen = frame.most_fallen(side, sizes.longest);

@@ -90,6 +90,8 @@ struct InCapsules {
   // Of those that it looks for.
 
   static float longest_half(const Look& look) { return look.cells->longest_half; }
+  static float reach_of(float half, float) { return half; }
+  static float besides_reach(const Look&) { return 0; }
   static float reach(const ClassCells& there) { return there.in_capsules; }
   static float with_entries(const ClassCells& there, float reach) {
     return reach + (there.longest_half + static_cast<float>(there.format.step()));

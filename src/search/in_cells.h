@@ -88,6 +88,9 @@ struct InCells {
   // Of those that it looks for.
 
   static float longest_half(const Look& look) { return look.cells->longest_half + look.touching; }
+  /// Where bodies differ, what one reaches, and what comes on top of it.
+  static float reach_of(float half, float half_width) { return half + half_width; }
+  static float besides_reach(const Look& look) { return look.touching - look.cells->widest_half; }
   /// How far from their path, or axis, they may be in contact. [unit of length]
   static float reach(const ClassCells& there) { return there.longest_half; }
   /// How far from that contact their entries may be: the cells are looked at with their overlap.

@@ -4,7 +4,7 @@ namespace needlework {
 
 using kernels::NeedleBlock;
 
-NeedleCells::NeedleCells(std::size_t cells, std::size_t needles) {
+NeedleCells::NeedleCells(std::size_t cells, std::size_t needles, bool differ) {
   // With room for all that may ever be chained, as only full blocks have others after them: threads
   // must not find their blocks moved.
   const std::size_t most = cells + needles / kernels::block_size;
@@ -12,6 +12,7 @@ NeedleCells::NeedleCells(std::size_t cells, std::size_t needles) {
   blocks_.resize(cells);
   next_.reserve(most);
   next_.resize(cells, NeedleBlock::none);
+  if (differ) reaches_.resize(most);
 }
 
 NeedleCells::Slot NeedleCells::enter(std::uint32_t cell, Needle i) {
@@ -46,6 +47,7 @@ Needle NeedleCells::leave(std::uint32_t cell, const Slot& slot) {
     for (int axis = 0; axis < 3; ++axis) to.word[axis][slot.lane] = from.word[axis][lane];
     to.time[slot.lane] = from.time[lane];
     to.needle[slot.lane] = from.needle[lane];
+    if (differ()) set_reach(slot, reaches_[last].reach[lane]);
   }
   from.needle[lane] = NeedleBlock::none;
   if (lane == 0 && previous != NeedleBlock::none) {

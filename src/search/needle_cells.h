@@ -23,13 +23,18 @@ class NeedleCells {
     std::uint32_t lane = 0;
   };
 
-  NeedleCells(std::size_t cells, std::size_t needles);
+  /// `differ`: needles have reaches of their own.
+  NeedleCells(std::size_t cells, std::size_t needles, bool differ);
 
   /// Gives a needle the next free slot of a cell.
   Slot enter(std::uint32_t cell, Needle i);
   /// Frees a slot of a cell; the last needle of the cell is moved there. Returns which needle the
   /// slot holds afterwards: that one or, where the slot was the last, the one that has left.
   Needle leave(std::uint32_t cell, const Slot& slot);
+  /// Says how far the needle in a slot reaches, where needles differ. [unit of length]
+  void set_reach(const Slot& slot, float reach) { reaches_[slot.block].reach[slot.lane] = reach; }
+  bool differ() const { return !reaches_.empty(); }
+  const kernels::BlockReaches* reaches() const { return differ() ? reaches_.data() : nullptr; }
   /// Needle i has become needle ranks[i].
   void renumber(const std::vector<Needle>& ranks);
 
@@ -46,6 +51,7 @@ class NeedleCells {
   void give_back(std::uint32_t block);
 
   LargeArray<kernels::NeedleBlock> blocks_;  ///< first those of the cells, then those chained
+  LargeArray<kernels::BlockReaches> reaches_;  ///< of each block; empty where needles are alike
   LargeArray<std::uint32_t> next_;
   std::vector<std::uint32_t> free_blocks_;
   std::mutex chaining_;  ///< held while blocks are taken from or given back to the free ones

@@ -64,6 +64,71 @@ std::vector<SizeClass> grouped_by_length(const Gas& gas) {
   return out;
 }
 
+constexpr std::size_t most_classes_by_cost = 8;
+// What a search into one more class takes, as so many bodies looked at. Measured, 2000 needles of
+// lognormal lengths of width 0.3 and 0.6 at n L^3 = 0.72: to split classes that this forbids takes
+// 1.1 times the instructions, and not to split those that it splits 1.25 times.
+constexpr double seen_for_a_class = 150;
+
+// What all bodies look at, where classes end at these numbers of them, the longest first.
+double seen_by_all(const Gas& gas, const std::vector<double>& extents,
+                   const std::vector<double>& sums, const std::vector<std::size_t>& ends) {
+  double out = 0;
+  std::size_t begin = 0;
+  for (const std::size_t end : ends) {
+    const double count = static_cast<double>(end - begin), mean = (sums[end] - sums[begin]) / count;
+    std::size_t other = 0;
+    for (const std::size_t other_end : ends) {
+      const double density = static_cast<double>(other_end - other) / gas.box.volume();
+      out += count * (seen_for_a_class + seen_within(0.5 * (mean + extents[other]), density));
+      other = other_end;
+    }
+    begin = end;
+  }
+  return out;
+}
+
+// The same for bodies of any sizes: a few that are far longer than the rest form classes of their
+// own, as long as each search then has less to look at.
+std::vector<SizeClass> grouped_by_cost(const Gas& gas) {
+  std::vector<double> extents, sums{0};
+  for (Needle i{0}; i < gas.size(); ++i) extents.push_back(2 * gas.reach(i));
+  std::ranges::sort(extents, std::ranges::greater());
+  for (const double extent : extents) sums.push_back(sums.back() + extent);
+  std::vector<std::size_t> ends{extents.size()};
+  double cost = seen_by_all(gas, extents, sums, ends);
+  for (bool is_better = true; is_better && ends.size() < most_classes_by_cost;) {
+    is_better = false;
+    const std::size_t begin = ends.size() > 1 ? ends[ends.size() - 2] : 0,
+                      left = extents.size() - begin;
+    std::vector<std::size_t> best = ends;
+    for (std::size_t part = 2; part <= 1024 && part <= left; part *= 2) {
+      // Bodies of one extent stay together.
+      const auto last = std::upper_bound(extents.begin(), extents.end(),
+                                         extents[begin + left / part - 1], std::greater<>());
+      const auto end = static_cast<std::size_t>(last - extents.begin());
+      if (end == extents.size()) continue;
+      std::vector<std::size_t> tried = ends;
+      tried.insert(tried.end() - 1, end);
+      const double its = seen_by_all(gas, extents, sums, tried);
+      if (its >= cost) continue;
+      cost = its;
+      best = tried;
+      is_better = true;
+    }
+    ends = best;
+  }
+  std::vector<SizeClass> out;
+  std::size_t begin = 0;
+  for (const std::size_t end : ends) {
+    SizeClass& its = out.emplace_back();
+    its.longest = extents[begin];
+    its.count = end - begin;
+    begin = end;
+  }
+  return out;
+}
+
 // The longest axis and the largest diameter of each class, and the means of its bodies.
 std::vector<MeanSizes> measure_bodies(const Gas& gas, std::vector<SizeClass>& classes) {
   std::vector<MeanSizes> means(classes.size());
@@ -104,9 +169,12 @@ double crowding_of_class(const Gas& gas, const std::vector<SizeClass>& classes,
 std::vector<SizeClass> size_classes(const Gas& gas, const SearchSetup& setup, BoundingVolume kind) {
   const double density = setup.density.value_or(reduced_density(gas));
   std::vector<SizeClass> out;
-  const bool may_differ = gas.composition.is_mixture() || gas.has_own_bodies();
-  if (may_differ && !setup.cell_side && !setup.capsule_radius)
-    out = grouped_by_length(gas);
+  if (!setup.cell_side && !setup.capsule_radius && gas.size() > 0) {
+    if (gas.has_own_bodies())
+      out = grouped_by_cost(gas);
+    else if (gas.composition.is_mixture())
+      out = grouped_by_length(gas);
+  }
   const double by_mean = density_by_mean(density, gas.composition),
                crowd = crowding(density, gas.composition),
                length = mean_length(gas.composition) * gas.longest;

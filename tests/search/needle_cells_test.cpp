@@ -61,7 +61,7 @@ void expect_consistent(const NeedleCells& cells, std::size_t count,
 TEST(NeedleCells, HoldNeedlesByCell) {
   Random random(33);
   constexpr std::uint32_t count = 4, needles = 400;
-  NeedleCells cells(count, needles);
+  NeedleCells cells(count, needles, false);
   std::map<std::uint32_t, Stored> stored;
   const kernels::NeedleBlock* const first = cells.blocks();
   for (int n = 0; n < 20000; ++n) {
