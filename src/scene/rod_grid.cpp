@@ -141,7 +141,7 @@ void RodGrid::visit_overlaps(const std::array<double, 3>& centre,
   const Species& its = composition_[species];
   const auto compare = [&](std::uint32_t i) {
     const Rod& other = rods_[i];
-    if (!composition_.meets(species, other.species)) return;
+    if (!composition_.exclude(species, other.species)) return;
     const Vec3d apart = flight.r - other.flight.r;
     const Vec3dd shift = box_.image<DoubleDouble>(box_.nearest(apart)).place;
     const Vec3d nearest = apart - to_double(shift);

@@ -13,7 +13,8 @@
 
 namespace needlework {
 
-/// Rods in a box, entered one after the other. Those that pass through each other do not overlap.
+/// Rods in a box, entered one after the other. Thin needles, and those that pass through each
+/// other, do not overlap.
 class RodGrid {
  public:
   /// `composition` must outlive the grid. Every edge of the box is at least twice the largest
