@@ -7,7 +7,8 @@
 
 namespace needlework::kernels {
 
-/// Two rods and one periodic image. Half lengths of 0 are spheres. Exchanging the rods and negating
+/// Two rods and one periodic image. Half lengths of 0 are spheres; one of the two may be a thin
+/// needle, as only the sum of the radii counts. Exchanging the rods and negating
 /// `shift` changes no bit of any result.
 struct RodPair : Pair {
   double distance = 1;  ///< of the axes at contact, the sum of the radii, above 0 [L]

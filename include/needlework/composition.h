@@ -156,6 +156,13 @@ class Composition {
   /// Whether these are rods, which collide where their axes are their mean diameter apart.
   bool has_width() const { return widest() > 0; }
   bool are_spheres() const;  ///< whether no body has an axis
+  /// Whether thin needles are among bodies that have a width.
+  bool is_partly_thin() const;
+  /// Whether no two bodies of these species may overlap: they meet, and not as thin needles do, or
+  /// are fixed and kept apart.
+  bool exclude(std::size_t a, std::size_t b) const {
+    return contact_distance(a, b) > 0 && !may_overlap(a, b);
+  }
   /// Share of the moving bodies that turn, over which rotational temperatures are averaged; 1 of none.
   double turning_share() const;
   /// The distance of the axes of two rods in contact. [L]

@@ -290,7 +290,7 @@ void Audit::add(const Happening& reported) {
   follow(now, happening, judgement);
   if (!resumed_ && happening.is_collision() && findings_.overlaps) {
     const Index a = index_of(collision.first), b = index_of(collision.second);
-    if (is_chosen(a, b)) measure_overlap(a, b);
+    if (is_chosen(a, b) && have_width(a, b)) measure_overlap(a, b);
   }
   go_on_if_resumed();
 }

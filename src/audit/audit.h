@@ -213,6 +213,10 @@ class Audit {
     return std::uint64_t{i < j ? i : j} << 32 | (i < j ? j : i);
   }
   bool meet(Index i, Index j) const;  ///< or they pass through each other
+  /// Whether two touch where their axes are some distance apart, and not as two thin needles.
+  bool have_width(Index i, Index j) const {
+    return needles_[i].body.diameter + needles_[j].body.diameter > 0;
+  }
   bool is_chosen(Index i, Index j) const;
   double since_start(const Instant& time) const;
   Instant begin_of(Index i, Index j) const;  ///< the later of the times of both records

@@ -130,7 +130,7 @@ void Audit::with_motion(const Flown& flown, const Check& check) const {
 }
 
 void Audit::check_apart(const Flown& flown) {
-  if (setup_.composition.has_width()) return check_rods_apart(flown);
+  if (have_width(flown.first, flown.second)) return check_rods_apart(flown);
   with_motion(flown, [&](PairMotion& pair) { check_apart(flown, pair); });
 }
 
@@ -169,7 +169,7 @@ void Audit::check_apart(const Flown& flown, PairMotion& pair) {
 }
 
 void Audit::check_touching(const Flown& flown) {
-  if (setup_.composition.has_width()) return check_rods_touching(flown);
+  if (have_width(flown.first, flown.second)) return check_rods_touching(flown);
   with_motion(flown, [&](PairMotion& pair) { check_touching(flown, pair); });
 }
 

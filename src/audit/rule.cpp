@@ -136,7 +136,7 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
     }
   }
   const std::array<AuditedBody, 2> bodies = {first.body, second.body};
-  const bool wide = first.body.diameter > 0;
+  const bool wide = first.body.diameter + second.body.diameter > 0;
   constexpr double unit = 0x1p-53;
   const double flexible = 8 * unit * (2 + a.flown + b.flown + (a.turned + b.turned));
   const double off_by_renewal = renewed ? space.rounding() : 0;

@@ -43,8 +43,8 @@ class Windows {
   static constexpr double tolerance = 4e-6;
 
   /// Opens the first window at time 0. `between_kicks` is their interval, or infinite.
-  Windows(std::span<const Needle> needles, std::vector<AuditedBody> bodies,
-          Composition composition, double volume, double between_kicks);
+  Windows(std::span<const Needle> needles, std::vector<AuditedBody> bodies, Composition composition,
+          double volume, double between_kicks);
 
   /// Opens windows until the present one ends after `now`. `needles_at(time)` gives the needles as
   /// they move then.

@@ -41,11 +41,11 @@ Pool::Pool(const Settings& settings, std::uint64_t number, std::span<const std::
       const auto of_a = static_cast<double>(needles[a]), of_b = static_cast<double>(needles[b]);
       const double share = of_a / static_cast<double>(needles_.size());
       const double pairs = share * (a == b ? 0.5 * (of_b - 1) : of_b);
-      partners_.push_back({.first = a,
-                           .second = b,
-                           .rule = all.restitution(a, b),
-                           .weight =
-                               all.meets(a, b) ? pairs * (all[a].length * all[b].length) : 0});
+      partners_.push_back(
+          {.first = a,
+           .second = b,
+           .rule = all.restitution(a, b),
+           .weight = all.meets(a, b) ? pairs * (all[a].length * all[b].length) : 0});
     }
   }
   find_fastest();

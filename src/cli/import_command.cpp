@@ -151,9 +151,9 @@ std::string pairs_text(const Composition& composition) {
       if (meet && rule == first) continue;
       const std::string how =
           meet ? fmt::format("epsilon = {}\nbeta = {}", rule.epsilon, rule.beta) : "meet = false";
-      text += fmt::format("[[pairs]]\nbetween = [{}, {}]\n{}\n\n",
-                          toml(printable(composition[a].name)),
-                          toml(printable(composition[b].name)), how);
+      text +=
+          fmt::format("[[pairs]]\nbetween = [{}, {}]\n{}\n\n", toml(printable(composition[a].name)),
+                      toml(printable(composition[b].name)), how);
     }
   }
   return text;

@@ -92,6 +92,12 @@ double Composition::widest() const {
   return out;
 }
 
+bool Composition::is_partly_thin() const {
+  bool thin = false;
+  for_each_present(species_, [&](std::size_t n) { thin = thin || species_[n].diameter == 0; });
+  return thin && has_width();
+}
+
 bool Composition::are_spheres() const {
   bool out = true;
   for_each_present(species_, [&](std::size_t n) { out = out && !species_[n].turns(); });

@@ -217,6 +217,10 @@ EventProcessor<S, M>::pair_event(const Event& event) {
   if constexpr (M::has_effects) {
     out.between += contact.u_second * contact.arm_second - contact.u_first * contact.arm_first;
   }
+  // Of rough needles, of either sign.
+  if constexpr (M::Law::mixes) {
+    if (pair.distance == 0) out.virial = dot(out.outcome.impulse, out.between);
+  }
   return out;
 }
 
@@ -286,8 +290,11 @@ template <Search S, Model M>
                  gas_.composition.pairs());
   }
   if constexpr (M::Law::has_distance) {
-    if (tally_.virial.empty()) tally_.virial.resize(1);
-    tally_.virial.front().add(event.virial);
+    if (tally_.virial.empty()) tally_.virial.resize(M::Law::mixes ? 2 : 1);
+    if constexpr (M::Law::mixes)
+      tally_.virial[event.virial < 0].add(std::abs(event.virial));
+    else
+      tally_.virial.front().add(event.virial);
   }
   if constexpr (M::has_effects) {
     if (run_.effects.stress) run_.count_collision(event.between, event.outcome.impulse, tally_);

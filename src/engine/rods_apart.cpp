@@ -23,13 +23,16 @@ RodShape shape_of(const Gas& gas, Needle i) {
 }
 
 double explained_overlap(const Gas& gas, Time at) {
+  // Least distance of axes in contact.
+  const bool thin = gas.composition.is_partly_thin();
   double smallest = gas.composition.widest();
   // Positions and directors are rounded when records are made, and again when they are moved on.
   const double rounding = 0x1p-51 * (gas.longest + gas.box.sum_of_edges());
   double fastest = 0;
   for (Needle i{0}; i < gas.size(); ++i) {
     const Record& record = gas.records[i];
-    smallest = std::min(smallest, 2 * gas.radius(i));
+    const double radius = gas.radius(i);
+    if (radius > 0) smallest = std::min(smallest, radius * (thin ? 1 : 2));
     const double fallen =
         std::sqrt(dot(gas.gravity, gas.gravity)) * gas.clock.difference(at, record.time);
     const double turns = gas.half_length(i) * record.flight.omega;

@@ -14,8 +14,9 @@ namespace needlework {
 RodShape shape_of(const Gas& gas, Needle i);
 
 /// By how much rods may overlap at this time, which is what rounding explains: 1e-13 of the
-/// smallest diameter, what positions in this box do not hold, and how far the fastest rods move
-/// while the clock does not. All records are from then or earlier. [L]
+/// smallest diameter, or radius where there are thin needles, what positions in this box do not
+/// hold, and how far the fastest rods move while the clock does not. All records are from then or
+/// earlier. [L]
 double explained_overlap(const Gas& gas, Time at);
 
 /// Two rods that overlap.

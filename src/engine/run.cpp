@@ -81,6 +81,7 @@ Effects effects_of(const Scene& scene) {
       .passing = !composition.all_meet(),
       .width = composition.has_width(),
       .spheres = composition.has_width() && composition.are_spheres(),
+      .mixed = composition.is_partly_thin(),
       .sliding = scene.collisions.sliding,
       .kicks = scene.driving.kicks.has_value(),
       .gravity = has_gravity(scene),

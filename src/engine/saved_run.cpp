@@ -290,7 +290,7 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
   if (!sources.empty()) archive(tally.by_source, tally.by_object);
   if (effects.width) {
     archive(tally.virial);
-    require(tally.virial.size() <= 1);
+    require(tally.virial.empty() || tally.virial.size() == (effects.mixed ? 2u : 1u));
   }
   if (sliding) archive(tally.sliding);
   if (kicks) {

@@ -328,8 +328,7 @@ std::string why_no_collision(const Scene& drawn) {
   if (goes_on(drawn, composition, composition.count())) return "";
   if (composition.count() == 0) return words_for(Collisionless::no_needles);
   if (composition.count() == 1) return words_for(Collisionless::one_needle);
-  if (are_passing(composition, composition.count()))
-    return words_for(Collisionless::passing);
+  if (are_passing(composition, composition.count())) return words_for(Collisionless::passing);
   const bool at_rest = std::ranges::all_of(composition.species(), [](const Species& species) {
     return species.t_tr == 0 && species.t_rot == 0;
   });
@@ -445,7 +444,8 @@ const std::string& Simulation::placement() const { return implementation_->place
 double Simulation::virial() const {
   const Access self = access();
   const auto& virial = self->run.tally.virial;
-  return virial.empty() ? 0 : virial.front().value();
+  const double taken = virial.size() > 1 ? virial.back().value() : 0;
+  return virial.empty() ? 0 : virial.front().value() - taken;
 }
 
 double Simulation::t_tr_integral() const {

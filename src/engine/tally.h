@@ -55,7 +55,8 @@ struct Tally {
   std::vector<ObjectTally> by_object;  ///< of all sources, by Run::first_object; the same
 
   /// Of rods, sum of r12 . dp over their collisions, r12 from the second centre to the first and dp
-  /// the impulse on the first; one number, or none as long as no rods have collided. [energy]
+  /// the impulse on the first; none as long as no rods have collided; where thin needles are among
+  /// them, which may be rough, a second number to be subtracted. [energy]
   std::vector<ExactTotal> virial;
 
   SlidingTally sliding;

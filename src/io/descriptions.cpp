@@ -283,9 +283,8 @@ std::vector<Description> mixture_descriptions() {
 }
 
 std::vector<Description> passing_descriptions() {
-  return {{"/parameters/meet",
-           "Whether needles of each two species meet: 1, or 0 where they pass through each other",
-           none, "[species][species]"}};
+  return {
+      {"/parameters/meet", "Whether each two species meet, 1 or 0", none, "[species][species]"}};
 }
 
 std::vector<Description> series_descriptions(const std::vector<SeriesGroup>& groups) {

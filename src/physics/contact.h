@@ -20,6 +20,7 @@ namespace needlework {
 ///     push along the line between them, which adds to the virial;
 ///   `never_overlap`: bodies never pass through each other, so that a lost contact leaves an
 ///     overlap, which first_contact() reports;
+///   `mixes`: of some pairs Pair::distance is 0, which are two thin needles;
 ///   `surface`: the rule of collisions for beta = -1, and whether there are others
 ///     (`may_be_rough`);
 ///   `turns`: bodies have a rotation, which collisions change;
@@ -44,6 +45,7 @@ concept ContactLaw = requires(const C& contact, const typename C::Pair& pair, do
   requires std::derived_from<typename C::Pair, kernels::Pair>;
   { C::has_distance } -> std::convertible_to<bool>;
   { C::never_overlap } -> std::convertible_to<bool>;
+  { C::mixes } -> std::convertible_to<bool>;
   { C::surface } -> std::convertible_to<Surface>;
   { C::may_be_rough } -> std::convertible_to<bool>;
   { C::turns } -> std::convertible_to<bool>;
@@ -59,7 +61,7 @@ concept ContactLaw = requires(const C& contact, const typename C::Pair& pair, do
 class NeedleContact {
  public:
   using Pair = kernels::Pair;
-  static constexpr bool has_distance = false, never_overlap = false;
+  static constexpr bool has_distance = false, never_overlap = false, mixes = false;
   static constexpr Surface surface = Surface::smooth;
   static constexpr bool may_be_rough = true, turns = true, slides = false;
 
@@ -89,7 +91,7 @@ static_assert(ContactLaw<NeedleContact>);
 class RodContact {
  public:
   using Pair = kernels::RodPair;
-  static constexpr bool has_distance = true, never_overlap = true;
+  static constexpr bool has_distance = true, never_overlap = true, mixes = false;
   static constexpr Surface surface = Surface::wide;
   static constexpr bool may_be_rough = false, turns = true, slides = false;
 
@@ -134,5 +136,50 @@ class SphereContact : public RodContact {
 };
 
 static_assert(ContactLaw<SphereContact>);
+
+/// The contact of bodies some of which are thin needles and others not: of two thin needles that of
+/// needles, of any other two that of rods, whose radii may be 0 for one of them.
+class MixedContact {
+ public:
+  using Pair = kernels::RodPair;
+
+ private:
+  /// What ask(law) returns for the law of the pair.
+  template <class Ask>
+  auto of(const Pair& pair, const Ask& ask) const {
+    return pair.distance > 0 ? ask(wide_) : ask(thin_);
+  }
+
+ public:
+  static constexpr bool has_distance = true, never_overlap = true, mixes = true;
+  static constexpr Surface surface = Surface::wide;  ///< of pairs with a distance
+  static constexpr bool may_be_rough = true, turns = true, slides = false;
+
+  explicit MixedContact(const Accuracy& accuracy) : thin_(accuracy), wide_(accuracy) {}
+  const Accuracy& accuracy() const { return thin_.accuracy(); }
+
+  kernels::Contact first_contact(const Pair& pair, double from, double to,
+                                 kernels::EvaluationCounters& spent) const {
+    return of(pair, [&](const auto& law) { return law.first_contact(pair, from, to, spent); });
+  }
+  double gap(const Pair& pair, const DoubleDouble& elapsed) const {
+    return of(pair, [&](const auto& law) { return law.gap(pair, elapsed); });
+  }
+  int side_after(const Pair& pair) const {
+    return of(pair, [&](const auto& law) { return law.side_after(pair); });
+  }
+  double time_apart(const Pair& pair) const {
+    return of(pair, [&](const auto& law) { return law.time_apart(pair); });
+  }
+  kernels::ContactGeometry geometry(const Pair& pair, const DoubleDouble& elapsed) const {
+    return of(pair, [&](const auto& law) { return law.geometry(pair, elapsed); });
+  }
+
+ private:
+  NeedleContact thin_;
+  RodContact wide_;
+};
+
+static_assert(ContactLaw<MixedContact>);
 
 }  // namespace needlework

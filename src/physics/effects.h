@@ -3,10 +3,10 @@
 
 namespace needlework {
 
-/// Five models are compiled: one without any of these, to which they cost nothing, one that asks
-/// for each of them when it runs, those for rods and for spheres, and that for needles that slide
-/// on each other (src/physics/needle_model.h). Effects that are events of their own are sources of
-/// events instead (src/effects/event_source.h).
+/// Six models are compiled: one without any of these, to which they cost nothing, one that asks
+/// for each of them when it runs, those for rods, for spheres and for thin needles among these, and
+/// that for needles that slide on each other (src/physics/needle_model.h). Effects that are events
+/// of their own are sources of events instead (src/effects/event_source.h).
 struct Effects {
   bool rough = false;         ///< tangential restitution, beta != -1
   bool contact_time = false;  ///< the t_c rule
@@ -16,6 +16,7 @@ struct Effects {
 
   bool width = false;    ///< rods of finite width
   bool spheres = false;  ///< all of these are spheres
+  bool mixed = false;    ///< thin needles are among them
   bool sliding = false;  ///< needles slide on each other
   bool sources = false;  ///< there are sources of events
   bool kicks = false;    ///< the velocities of all needles change at one instant, again and again
@@ -24,8 +25,8 @@ struct Effects {
   bool stress = false;   ///< the pressure tensor is measured
 
   bool any() const {
-    return rough || contact_time || table || passing || width || spheres || sliding || sources || kicks ||
-           gravity || shear || stress;
+    return rough || contact_time || table || passing || width || spheres || mixed || sliding ||
+           sources || kicks || gravity || shear || stress;
   }
 };
 

@@ -11,9 +11,9 @@
 namespace needlework {
 
 /// Infinitely thin needles with normal and tangential restitution or, by another law of contact,
-/// smooth rods of finite width or spheres. Without effects they are smooth needles, lengths and
-/// masses are 1, and nothing is looked up by species. With effects, each is asked for when the
-/// model runs.
+/// smooth rods of finite width or spheres, or such needles among them. Without effects they are
+/// smooth needles, lengths and masses are 1, and nothing is looked up by species. With effects,
+/// each is asked for when the model runs.
 template <bool with_effects, ContactLaw TheLaw = NeedleContact>
 class NeedleModel {
  public:
@@ -25,7 +25,7 @@ class NeedleModel {
   /// Whether the model simulates these effects, all of them and no other one.
   static constexpr bool covers(const Effects& effects) {
     if (Law::has_distance != effects.width || has_sliding != effects.sliding) return false;
-    if (Law::turns == effects.spheres) return false;
+    if (Law::turns == effects.spheres || Law::mixes != effects.mixed) return false;
     if (effects.rough && !Law::may_be_rough) return false;
     if (effects.contact_time && has_sliding) return false;  // both replace the same bounces
     // Contacts that last are of images at rest, and carry momentum besides flights and collisions.
@@ -110,11 +110,8 @@ class NeedleModel {
         if (gas_.shear) impact.v_second = impact.v_second - past;
         return outcome(impact);
       };
-      if (elastic) return in_frames_of_records(needlework::collide<Law::surface>(both, {}));
-      const Restitution& rule = restitution(a, b);
-      if (Law::may_be_rough && rule.is_rough())
-        return in_frames_of_records(needlework::collide<Surface::rough>(both, rule));
-      return in_frames_of_records(needlework::collide<Law::surface>(both, rule));
+      if (elastic) return in_frames_of_records(impact<Law>(both, {}));
+      return in_frames_of_records(impact<Law>(both, restitution(a, b)));
     } else {
       const CollidingPair both{first.v, first.w, second.v, second.w,
                                body(i), body(j), contact,  side};
@@ -131,6 +128,16 @@ class NeedleModel {
   }
 
  private:
+  template <ContactLaw Touching>
+  [[gnu::always_inline]] static Impact impact(const CollidingPair& pair, const Restitution& rule) {
+    if constexpr (Touching::mixes) {
+      const bool thin = pair.body_first.radius == 0 && pair.body_second.radius == 0;
+      return thin ? impact<NeedleContact>(pair, rule) : impact<RodContact>(pair, rule);
+    }
+    if (Touching::may_be_rough && rule.is_rough())
+      return needlework::collide<Surface::rough>(pair, rule);
+    return needlework::collide<Touching::surface>(pair, rule);
+  }
   /// Whether two spheres with records of one time surely fly apart, by numbers in double: most that
   /// have just collided.
   bool part_for_good(Needle a, Needle b, const Shift& shift) const {
@@ -162,9 +169,10 @@ class NeedleModel {
 
 using RodModel = NeedleModel<true, RodContact>;
 using SphereModel = NeedleModel<true, SphereContact>;
+using MixedModel = NeedleModel<true, MixedContact>;
 using SlidingModel = NeedleModel<true, SlidingContact>;
 
 static_assert(Model<NeedleModel<false>> && Model<NeedleModel<true>> && Model<RodModel> &&
-              Model<SphereModel> && Model<SlidingModel>);
+              Model<SphereModel> && Model<MixedModel> && Model<SlidingModel>);
 
 }  // namespace needlework

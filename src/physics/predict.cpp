@@ -173,13 +173,7 @@ FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double h
   pair.half_first = half_length_of(first);
   pair.half_second = half_length_of(second);
   const double width_a = diameter_of(first), width_b = diameter_of(second);
-  if ((width_a > 0) != (width_b > 0)) {
-    throw InputError(fmt::format(
-        "diameters {:g} and {:g}: expected both 0, for needles, or both above, for rods: there is "
-        "no contact between the two kinds",
-        width_a, width_b));
-  }
-  if (width_a == 0)
+  if (width_a == 0 && width_b == 0)
     return predicted<NeedleContact>(NeedleContact(accuracy), pair, 0, scale_of(pair), horizon,
                                     just_collided);
   for (const auto& [flight, half] : {std::pair(&a, pair.half_first), {&b, pair.half_second}}) {

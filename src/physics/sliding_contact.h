@@ -39,7 +39,7 @@ struct SlidingPair : kernels::Pair {
 class SlidingContact {
  public:
   using Pair = SlidingPair;
-  static constexpr bool has_distance = false, never_overlap = false;
+  static constexpr bool has_distance = false, never_overlap = false, mixes = false;
   static constexpr Surface surface = Surface::smooth;
   static constexpr bool may_be_rough = false, turns = true, slides = true;
 

@@ -179,8 +179,9 @@ class Painter {
       ends[1][axis] += half;
     }
     // Nearness shows more in the thickness than perspective alone would make it.
-    const bool has_width = !settings_.diameters.empty();
-    const double full = has_width ? settings_.diameters.at(species) * middle.scale
+    const double diameter = settings_.diameters.empty() ? 0 : settings_.diameters.at(species);
+    const bool has_width = diameter > 0;
+    const double full = has_width ? diameter * middle.scale
                                   : thickness * length * middle.scale * (0.5 + middle.nearness);
     const double share = faintest + (1 - faintest) * std::clamp(middle.nearness, 0.0, 1.0);
     drawing_.strokes.push_back(

@@ -104,8 +104,8 @@ std::vector<theory::Temperatures> temperatures_of(const Column& t_tr, const Colu
 // temperatures of each.
 py::tuple mixture_rates(const Column& counts, const Column& lengths, const Column& masses,
                         const Column& ks, const Column& diameters, const Column& epsilons,
-                        const Column& betas, const Column& meet, double volume,
-                        const Column& t_tr, const Column& t_rot) {
+                        const Column& betas, const Column& meet, double volume, const Column& t_tr,
+                        const Column& t_rot) {
   const Composition composition =
       composition_of(counts, lengths, masses, ks, diameters, epsilons, betas, meet);
   const auto now = temperatures_of(t_tr, t_rot);

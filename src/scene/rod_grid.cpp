@@ -144,7 +144,7 @@ void RodGrid::visit_overlaps(const std::array<double, 3>& centre,
   const kernels::Flight flight = at_rest(centre, director);
   const auto compare = [&](std::uint32_t i) {
     const Rod& other = rods_[i];
-    if (composition_.may_overlap(rod.species, other.shape.species)) return;
+    if (!composition_.exclude(rod.species, other.shape.species)) return;
     const Vec3d apart = flight.r - other.flight.r;
     const Vec3dd shift = box_.image<DoubleDouble>(box_.nearest(apart)).place;
     const Vec3d nearest = apart - to_double(shift);

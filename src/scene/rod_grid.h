@@ -22,7 +22,8 @@ struct RodShape {
   double extent() const { return length + diameter; }  ///< from end to end [L]
 };
 
-/// Rods in a box, entered one after the other. Those that pass through each other do not overlap.
+/// Rods in a box, entered one after the other. Thin needles, and those that pass through each
+/// other, do not overlap.
 class RodGrid {
  public:
   /// For these rods of these species, which must outlive the grid. Every edge of the box is at least

@@ -32,6 +32,8 @@ void PairFilter::pass(const kernels::Seeker& seeker, const kernels::Found& found
               : never;
     if (!parts) propose(found, parting.pair, 0, out);
   }
+  // Of two thin needles among rods the distance is 0: not apart by more than a margin as they
+  // cross.
   if (has_width_) volumes_.distances.set(columns, Needle(seeker.needle), found, pairs);
   if (volumes_.gas.slides) propose_sliding(seeker, found, pairs, never, out);
   counters_.bracket_steps += bracket_(seeker, columns, pairs);

@@ -18,6 +18,7 @@ std::string model_of(const Effects& effects) {
     return with_model(effects, []<class M>() -> std::string {
       EXPECT_TRUE(M::has_effects || !M::has_sliding);
       return !M::Law::turns         ? "spheres"
+             : M::Law::mixes        ? "mixed"
              : M::Law::has_distance ? "rods"
              : M::has_sliding       ? "sliding"
              : M::has_effects       ? "any"
@@ -31,19 +32,23 @@ std::string model_of(const Effects& effects) {
 TEST(ModelChoice, LeavesNoEffectOut) {
   EXPECT_EQ(model_of({}), "plain");
   bool Effects::*const all[] = {&Effects::rough,   &Effects::contact_time, &Effects::table,
-                                &Effects::passing, &Effects::width,   &Effects::spheres,      &Effects::sliding,
-                                &Effects::sources, &Effects::kicks,        &Effects::gravity,
-                                &Effects::shear,   &Effects::stress};
+                                &Effects::passing, &Effects::width,        &Effects::spheres,
+                                &Effects::mixed,   &Effects::sliding,      &Effects::sources,
+                                &Effects::kicks,   &Effects::gravity,      &Effects::shear,
+                                &Effects::stress};
   static_assert(sizeof(Effects) == sizeof all / sizeof all[0], "an effect is missing above");
   for (unsigned set = 1; set < 1u << std::size(all); ++set) {
     Effects effects;
     for (std::size_t n = 0; n < std::size(all); ++n) effects.*all[n] = (set >> n & 1u) != 0;
-    const bool impossible = (effects.spheres && !effects.width) ||
-                            (effects.width && (effects.rough || effects.sliding)) ||
-                            (effects.sliding && (effects.rough || effects.contact_time ||
-                                                 effects.shear || effects.stress));
+    const bool impossible =
+        ((effects.spheres || effects.mixed) && !effects.width) ||
+        (effects.spheres && effects.mixed) || (effects.width && effects.rough && !effects.mixed) ||
+        (effects.width && effects.sliding) ||
+        (effects.sliding &&
+         (effects.rough || effects.contact_time || effects.shear || effects.stress));
     const std::string expected = impossible        ? "none"
                                  : effects.spheres ? "spheres"
+                                 : effects.mixed   ? "mixed"
                                  : effects.width   ? "rods"
                                  : effects.sliding ? "sliding"
                                                    : "any";

@@ -30,17 +30,17 @@ Scene ghosts_among_needles() {
   return scene;
 }
 
-/// Two gases in one box, of which one is of spheres that would not fit into it.
-Scene two_gases_of_rods() {
+/// Rods in big spheres, which overlap and meet nothing but small ones.
+Scene rods_in_spheres() {
   Scene scene = test::scene_of(0, 7, 3);
   scene.species = {{.name = "rods", .count = 150, .length = 2, .diameter = 0.3},
-                   {.name = "big", .count = 400, .length = 0, .mass = 3, .diameter = 1.4},
+                   {.name = "big", .count = 90, .length = 0, .mass = 3, .diameter = 1.4},
                    {.name = "small", .count = 60, .length = 0, .diameter = 0.5}};
   scene.pairs = {passing("big", "big"), passing("rods", "big")};
   return scene;
 }
 
-std::vector<Scene> scenes() { return {ghosts_among_needles(), two_gases_of_rods()}; }
+std::vector<Scene> scenes() { return {ghosts_among_needles(), rods_in_spheres()}; }
 
 // Of all pairs, and that no two collide that do not meet.
 TEST(Passing, HasOneTrajectory) {
@@ -60,9 +60,9 @@ TEST(Passing, HasOneTrajectory) {
           << search;
     }
     for (const char* search : {"linked-cells", "capsules"}) {
-      EXPECT_EQ(test::hash_of(test::on_threads(test::searched_by(scene, search), 2),
-                              until_collisions(4)),
-                first.trajectory_hash())
+      EXPECT_EQ(
+          test::hash_of(test::on_threads(test::searched_by(scene, search), 2), until_collisions(4)),
+          first.trajectory_hash())
           << search << " on 2";
     }
   }
@@ -118,7 +118,7 @@ TEST(Passing, OfAllSpeciesEndsAtOnce) {
   Scene one = test::scene_of(0, 5);
   one.species = {{.name = "a", .count = 50}};
   one.pairs = {passing("a", "a")};
-  Scene two = test::scene_of(0, 5);
+  Scene two = test::scene_of(0, 7);
   two.species = {{.name = "a", .count = 50, .length = 0, .diameter = 1},
                  {.name = "b", .count = 1, .length = 2, .diameter = 1},
                  {.name = "none", .count = 0}};
@@ -140,7 +140,7 @@ TEST(Passing, OfAllSpeciesEndsAtOnce) {
     Simulation between(walled);
     EXPECT_EQ(between.advance(until_collisions(1)), Stop::nothing_can_happen);
     EXPECT_EQ(between.advance(until_time(1)), Stop::time);
-    EXPECT_GT(between.counters().events, 50u);
+    EXPECT_GT(between.counters().events, 10u);
     EXPECT_EQ(between.collisions(), 0u);
   }
 }

@@ -113,8 +113,10 @@ TEST_F(RodFormats, DumpsWithoutAColumnOfLengthsHaveNeedles) {
             file("a.dump") + ": line 10: length = 0: expected a number > 0");
   EXPECT_EQ(message_of<InputError>([&] { read("length diameter", "-1 1"); }),
             file("a.dump") + ": line 10: length = -1: expected a number > 0, or 0 for a sphere");
-  EXPECT_EQ(message_of<InputError>([&] { read("length diameter", "1 0"); }),
-            file("a.dump") + ": line 10: diameter = 0: expected a number > 0");
+  EXPECT_EQ(
+      message_of<InputError>([&] { read("length diameter", "1 -1"); }),
+      file("a.dump") + ": line 10: diameter = -1: expected a number > 0, or 0 for a thin needle");
+  EXPECT_EQ(read("length diameter", "1 0").diameter, std::vector{0.0});
 }
 
 TEST_F(RodFormats, WithoutAKAreHomogeneous) {

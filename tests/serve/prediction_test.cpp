@@ -129,9 +129,6 @@ TEST(ServePredict, NamesTheFieldOrThePairThatIsWrong) {
          "horizon, skip, accuracy, length1, length2, diameter1, diameter2");
   expect("u2", text_of(Vectors{{1, 0, 0}, {0, 0, 0}}), 3,
          "pair 1: orientation = 0: expected a direction");
-  expect("diameter1", text_of(std::vector<double>{0, 0.5}), 3,
-         "pair 1: diameters 0.5 and 0: expected both 0, for needles, or both above, for rods: "
-         "there is no contact between the two kinds");
   expect("length2", -1, 3, "pair 0: length = -1: expected a number from 1e-150 to 1e+150");
 }
 

@@ -16,6 +16,7 @@ auto with_model(const Effects& effects, Make&& make) {
   if (NeedleModel<true>::covers(effects)) return make.template operator()<NeedleModel<true>>();
   if (RodModel::covers(effects)) return make.template operator()<RodModel>();
   if (SphereModel::covers(effects)) return make.template operator()<SphereModel>();
+  if (MixedModel::covers(effects)) return make.template operator()<MixedModel>();
   if (SlidingModel::covers(effects)) return make.template operator()<SlidingModel>();
   throw std::logic_error("no model has all effects that this scene asks for together");
 }

@@ -57,12 +57,12 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 // `common` has NaN for a species of which nothing is known yet.
 void read_common(const Row& row, std::optional<std::size_t> column, const char* name,
-                 std::size_t species, std::vector<double>& common, bool may_be_zero = false) {
+                 std::size_t species, std::vector<double>& common, const char* if_zero = nullptr) {
   if (!column) return;
   const double value = row.read(*column, name);
-  if (!(value > 0 || (may_be_zero && value == 0))) {
+  if (!(value > 0 || (if_zero && value == 0))) {
     row.reject(fmt::format("{} = {}: expected a number > 0{}", name, value,
-                           may_be_zero ? ", or 0 for a sphere" : ""));
+                           if_zero ? fmt::format(", or 0 for {}", if_zero) : ""));
   }
   if (common.size() <= species) common.resize(species + 1, unknown);
   if (!std::isnan(common[species]) && common[species] != value) {
@@ -138,8 +138,8 @@ void NeedleReader::read(const Row& row) {
   }
   Material& material = configuration_.material;
   read_common(row, columns_.length, "length", species, material.length,
-              columns_.diameter.has_value());
-  read_common(row, columns_.diameter, "diameter", species, material.diameter);
+              columns_.diameter ? "a sphere" : nullptr);
+  read_common(row, columns_.diameter, "diameter", species, material.diameter, "a thin needle");
   read_common(row, columns_.mass, "mass", species, material.mass);
   read_common(row, columns_.k, "k", species, material.k);
 }

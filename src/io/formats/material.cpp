@@ -35,11 +35,13 @@ std::vector<double> read_numbers(const Source& source, const std::string& path) 
   return Element(source, path).read<double>({});
 }
 
-std::vector<double> read_positive(const Source& source, const std::string& path) {
+std::vector<double> read_positive(const Source& source, const std::string& path,
+                                  bool or_zero = false) {
   std::vector<double> values = read_numbers(source, path);
   for (const double value : values) {
-    if (value > 0 && std::isfinite(value)) continue;
-    throw InputError(fmt::format("{} = {}: expected a number > 0", source.place(path), value));
+    if ((value > 0 || (or_zero && value == 0)) && std::isfinite(value)) continue;
+    throw InputError(fmt::format("{} = {}: expected a number {} 0", source.place(path), value,
+                                 or_zero ? ">=" : ">"));
   }
   return values;
 }
@@ -84,7 +86,7 @@ static void transfer(Archive& archive, Material& material) {
 static Material read_material_here(const std::string& path) {
   const Source source(path);
   Material material;
-  material.diameter = read_positive(source, "/parameters/diameter");
+  material.diameter = read_positive(source, "/parameters/diameter", true);
   // A rod without an axis is a sphere.
   material.length = has_width(material) ? read_numbers(source, "/parameters/length")
                                         : read_positive(source, "/parameters/length");

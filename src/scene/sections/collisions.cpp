@@ -1,6 +1,9 @@
 // [collisions]: restitution, the t_c rule, sliding contact.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
+
 #include "src/scene/read_value.h"
 #include "src/scene/sections/sections.h"
 
@@ -16,16 +19,30 @@ std::optional<Violation> there_are_two_contact_times(const Scene& scene) {
 }
 
 std::optional<Violation> rods_are_rough(const Scene& scene) {
-  if (!scene.composition().has_width()) return {};
+  const Composition composition = scene.composition();
+  if (!composition.has_width() || !composition.is_rough()) return {};
   constexpr const char* reason =
       "expected -1 for rods of finite width: what turns them about their axes is not simulated";
-  if (const double beta = scene.collisions.beta; beta != -1)
-    return Violation{.key = "collisions.beta", .value = fmt::to_string(beta), .reason = reason};
+  const auto index_of = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::ranges::find(scene.species, name, &Species::name) -
+                                    scene.species.begin());
+  };
   for (std::size_t n = 0; n < scene.pairs.size(); ++n) {
     const double beta = scene.pairs[n].beta.value_or(-1);
-    if (beta == -1) continue;
+    const std::size_t a = index_of(scene.pairs[n].between[0]),
+                      b = index_of(scene.pairs[n].between[1]);
+    if (beta == -1 || std::max(a, b) >= scene.species.size() || !composition.exclude(a, b))
+      continue;
     return Violation{
         .key = key_of_entry("pairs.beta", n), .value = fmt::to_string(beta), .reason = reason};
+  }
+  for (std::size_t a = 0; a < composition.size(); ++a) {
+    for (std::size_t b = a; b < composition.size(); ++b) {
+      if (!composition.restitution(a, b).is_rough() || !composition.exclude(a, b)) continue;
+      return Violation{.key = "collisions.beta",
+                       .value = fmt::to_string(scene.collisions.beta),
+                       .reason = reason};
+    }
   }
   return {};
 }

@@ -93,21 +93,6 @@ std::optional<Violation> inertia_is_impossible(const Scene& scene) {
   return {};
 }
 
-// Two needles meet where they cross, and two rods where their axes are some distance apart; there
-// is no such distance between needles, which pass through each other's place after a contact.
-std::optional<Violation> needles_are_among_rods(const Scene& scene) {
-  const auto is_rod = [](const Species& each) { return each.diameter > 0; };
-  const auto first = std::ranges::find_if_not(scene.species, is_rod);
-  if (first == scene.species.end() || std::ranges::none_of(scene.species, is_rod)) return {};
-  return Violation{
-      .key =
-          key_of_entry("species.diameter", static_cast<std::size_t>(first - scene.species.begin())),
-      .value = fmt::to_string(first->diameter),
-      .reason =
-          "expected one above 0, as other species have one: thin needles cross each other, "
-          "rods of finite width never do, and there is no contact between the two kinds"};
-}
-
 std::string quoted_pair(const Scene::Pair& pair) {
   return printable(fmt::format("[{}, {}]", in_quotes(pair.between[0]), in_quotes(pair.between[1])),
                    60);
@@ -151,8 +136,9 @@ std::optional<Violation> pair_that_never_meets_collides(const Scene& scene) {
     if (pair.meet || !(pair.epsilon || pair.beta)) continue;
     return Violation{.key = key_of_entry("pairs.meet", n),
                      .value = "false",
-                     .reason = "expected either meet = false or epsilon and beta, not both: bodies "
-                               "that pass through each other have no rule of collisions",
+                     .reason =
+                         "expected either meet = false or epsilon and beta, not both: bodies "
+                         "that pass through each other have no rule of collisions",
                      .or_keys = {key_of_entry("pairs.epsilon", n), key_of_entry("pairs.beta", n)}};
   }
   return {};
@@ -223,7 +209,6 @@ SceneSection species_section() {
                 {Aspect::species, more_needles_than_ids},
                 {Aspect::bodies, body_has_no_extent},
                 {Aspect::bodies, inertia_is_impossible},
-                {Aspect::bodies, needles_are_among_rods},
                 {Aspect::restored, species_do_not_add_up}},
       .exclusions = {{"species.", "needles.count", not_both},
                      {"species.", "needles.k", not_both},
