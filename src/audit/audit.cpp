@@ -79,8 +79,7 @@ AuditedBody own_body(const OwnBodies& own, std::size_t i, AuditedBody body, doub
   body.length = length / unit;
   body.diameter = own.diameter.at(i) / unit;
   body.mass = own.mass.at(i);
-  if (length > 0 && std::isfinite(inertia))
-    body.k = body.mass * (length * length) / (2 * inertia);
+  if (length > 0 && std::isfinite(inertia)) body.k = body.mass * (length * length) / (2 * inertia);
   return body;
 }
 

@@ -30,8 +30,8 @@ Touch::Touch(const RelativeState& state, const std::array<AuditedBody, 2>& bodie
   normal_velocity = dot(velocity, n);
   inverse_mass = 0;
   for (std::size_t i = 0; i < 2; ++i) {
-    inverse_mass +=
-        bodies[i].inverse_mass<Extended>() + arms[i] * arms[i] * bodies[i].inverse_inertia<Extended>();
+    inverse_mass += bodies[i].inverse_mass<Extended>() +
+                    arms[i] * arms[i] * bodies[i].inverse_inertia<Extended>();
   }
   const Extended omega1 = norm(du1), omega2 = norm(du2), omega = omega1 + omega2;
   const Extended length = (Extended(bodies[0].length) + bodies[1].length) / 2;
@@ -53,7 +53,8 @@ RelativeState after_change(const RelativeState& state, const std::array<AuditedB
                            const Touch& touch, Extended change) {
   const Vector<Extended> impulse = touch.n * (change / touch.inverse_mass);
   RelativeState out = state;
-  out.v = out.v + impulse * (bodies[0].inverse_mass<Extended>() + bodies[1].inverse_mass<Extended>());
+  out.v =
+      out.v + impulse * (bodies[0].inverse_mass<Extended>() + bodies[1].inverse_mass<Extended>());
   out.du1 = out.du1 + impulse * (touch.arms[0] * bodies[0].inverse_inertia<Extended>());
   out.du2 = out.du2 - impulse * (touch.arms[1] * bodies[1].inverse_inertia<Extended>());
   return out;

@@ -34,7 +34,8 @@ std::vector<Temperatures> temperatures_of(std::span<const Needle> needles,
     const auto v = to<long double>(needle.record.v), w = to<long double>(needle.record.w);
     Squares& sum = sums[needle.body.species];
     ++sum.count;
-    const long double mass = needle.body.moving_mass(), length = needle.body.length, k = needle.body.k;
+    const long double mass = needle.body.moving_mass(), length = needle.body.length,
+                      k = needle.body.k;
     sum.v2 += mass * dot(v, v);
     sum.w2 += mass * length * length / k * dot(w, w);
   }
@@ -54,7 +55,8 @@ double energy_of(std::span<const Needle> needles) {
   for (const Needle& needle : needles) {
     const auto v = to<long double>(needle.record.v), w = to<long double>(needle.record.w);
     const long double length = needle.body.length;
-    sum += needle.body.moving_mass() * (dot(v, v) + length * length / (2 * needle.body.k) * dot(w, w)) / 2;
+    sum += needle.body.moving_mass() *
+           (dot(v, v) + length * length / (2 * needle.body.k) * dot(w, w)) / 2;
   }
   return static_cast<double>(sum);
 }

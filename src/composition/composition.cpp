@@ -82,13 +82,15 @@ bool Composition::any_meet() const {
 
 double Composition::longest() const {
   double out = 0;
-  for_each_present(species_, [&](std::size_t n) { out = std::max(out, species_[n].greatest_extent()); });
+  for_each_present(species_,
+                   [&](std::size_t n) { out = std::max(out, species_[n].greatest_extent()); });
   return out;
 }
 
 double Composition::widest() const {
   double out = 0;
-  for_each_present(species_, [&](std::size_t n) { out = std::max(out, species_[n].greatest_diameter()); });
+  for_each_present(species_,
+                   [&](std::size_t n) { out = std::max(out, species_[n].greatest_diameter()); });
   return out;
 }
 

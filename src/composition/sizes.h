@@ -26,8 +26,9 @@ class SizesOfBodies {
     const double volume = Species{.length = body.length, .diameter = body.diameter}.volume();
     const double extent = body.length + body.diameter;
     const double square = body.diameter * body.diameter;
-    const double terms[] = {body.length,  body.diameter, body.mass,              body.inertia,
-                            body.length * body.diameter, square, square * body.diameter, volume};
+    const double terms[] = {
+        body.length, body.diameter,          body.mass, body.inertia, body.length * body.diameter,
+        square,      square * body.diameter, volume};
     for (std::size_t n = 0; n < number_of_sums; ++n) sums_[n].add(terms[n]);
     const bool first = count_++ == 0;
     const auto least = [&](double& to, double by) { to = first ? by : std::min(to, by); };
@@ -46,7 +47,8 @@ class SizesOfBodies {
     species.length = mean(0);
     species.diameter = mean(1);
     species.mass = mean(2);
-    if (species.turns()) species.k = species.mass * (species.length * species.length) / (2 * mean(3));
+    if (species.turns())
+      species.k = species.mass * (species.length * species.length) / (2 * mean(3));
     species.given_inertia.reset();
     species.sizes = sizes_;
     species.sizes->product = mean(4);
@@ -59,9 +61,7 @@ class SizesOfBodies {
 
  private:
   static constexpr std::size_t number_of_sums = 8;
-  double mean(std::size_t n) const {
-    return sums_[n].value() / static_cast<double>(count_);
-  }
+  double mean(std::size_t n) const { return sums_[n].value() / static_cast<double>(count_); }
 
   Sizes sizes_;
   CompensatedSum sums_[number_of_sums];

@@ -133,7 +133,8 @@ FlightCarries flight_carries(const Gas& gas, Needle i, Time now) {
   // The flow is faster where a needle gets to.
   Vec3d gain = gas.gravity;
   if (gas.shear) gain.x -= gas.shear->rate() * c.y;
-  return {gas.is_fixed(i) ? 0 : gas.body(i).mass, carried(c, gain, gas.clock.difference(now, record.time))};
+  return {gas.is_fixed(i) ? 0 : gas.body(i).mass,
+          carried(c, gain, gas.clock.difference(now, record.time))};
 }
 
 Tensor carried_in_flights(const Gas& gas, Time now, int threads) {

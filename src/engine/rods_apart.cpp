@@ -54,7 +54,8 @@ std::optional<RodOverlap> find_overlap(const Gas& gas, Time at, kernels::Isa isa
   copy_state(gas, at, isa, order, state);
   RodGrid grid(gas.composition, shapes, gas.box_at(at));
   for (std::size_t i = 0; i < state.size(); ++i) {
-    const auto overlap = grid.overlap(state.position[i], state.orientation[i], shapes[i], tolerance);
+    const auto overlap =
+        grid.overlap(state.position[i], state.orientation[i], shapes[i], tolerance);
     grid.enter(state.position[i], state.orientation[i], shapes[i]);
     if (!overlap) continue;
     const auto [first, second] = std::minmax(state.id[overlap->other], state.id[i]);

@@ -553,7 +553,8 @@ std::uint64_t Simulation::collisions() const { return implementation_->run.tally
 double Simulation::initial_energy() const {
   const Access self = access();
   const Run& run = self->run;
-  return (run.initial_energy - energy_of_low_edges(run.gas)) / static_cast<double>(run.gas.moving());
+  return (run.initial_energy - energy_of_low_edges(run.gas)) /
+         static_cast<double>(run.gas.moving());
 }
 double Simulation::energy_drift() const { return access()->run.energy_drift(); }
 double Simulation::epoch_length() const { return implementation_->run.gas.clock.epoch_length(); }

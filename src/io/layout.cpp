@@ -121,11 +121,11 @@ StepAndTime make_needles(hid_t group, const Scene& scene, std::vector<std::uint8
   for (std::size_t i = masses.size(); i < species.size(); ++i)
     masses.push_back(composition[species[i]].mass_or_infinity());
   hdf5::write_array<double>(group, "mass", {count}, masses, place);
-  for (const auto& [name, column] : {std::pair("length", &own.length),
-                                     {"diameter", &own.diameter},
-                                     {"inertia", &own.inertia}}) {
+  for (const auto& [name, column] :
+       {std::pair("length", &own.length), {"diameter", &own.diameter}, {"inertia", &own.inertia}}) {
     const bool is_thin = column == &own.diameter && !composition.has_width();
-    if (!column->empty() && !is_thin) hdf5::write_array<double>(group, name, {count}, *column, place);
+    if (!column->empty() && !is_thin)
+      hdf5::write_array<double>(group, name, {count}, *column, place);
   }
   hdf5::write_array<std::uint8_t>(group, "species", {count}, species, place);
   return shared;

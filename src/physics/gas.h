@@ -29,13 +29,13 @@ struct Gas {
   LargeArray<Shift> images;  ///< total number of boxes by which each centre has been wrapped
   std::unique_ptr<FurtherTouches> further_touches = std::make_unique<FurtherTouches>();
   Clock clock;
-  Box box;                         ///< its edges, and which axes are periodic: those without walls
-  std::optional<Shear> shear;      ///< if rows of boxes slide
-  Vec3d gravity{};                 ///< acceleration of all needles [L / time^2]
-  bool falls = false;              ///< gravity is not 0
-  Vec3d pull{};                    ///< gravity along periodic axes, where it has no potential
-  Columns columns;                 ///< what effects keep for each needle
-  Composition composition;         ///< indexed by Record::species
+  Box box;                     ///< its edges, and which axes are periodic: those without walls
+  std::optional<Shear> shear;  ///< if rows of boxes slide
+  Vec3d gravity{};             ///< acceleration of all needles [L / time^2]
+  bool falls = false;          ///< gravity is not 0
+  Vec3d pull{};                ///< gravity along periodic axes, where it has no potential
+  Columns columns;             ///< what effects keep for each needle
+  Composition composition;     ///< indexed by Record::species
   LargeArray<BodyNumbers> own_bodies;  ///< of each needle; empty where those of a species are alike
   double longest = 1;              ///< largest extent of a body, with departures from flights [L]
   std::unique_ptr<Slides> slides;  ///< null where needles do not slide on each other
@@ -74,8 +74,8 @@ struct Gas {
   void set_composition(Composition its_composition);
   /// Lets needles slide on each other. To be called after set_composition().
   void let_slide();
-  /// Length, mass and inertia of needle i. Whether those of a species have the same is known to this
-  /// and the next five functions alone.
+  /// Length, mass and inertia of needle i. Whether those of a species have the same is known to
+  /// this and the next five functions alone.
   Body body(Needle i) const { return has_own_bodies() ? own_body(i) : body_of_species(i); }
   double half_length(Needle i) const {
     return has_own_bodies() ? 0.5 * own_bodies[i].length : body_of_species(i).half_length;

@@ -28,12 +28,12 @@ struct ThermalGas {
 double mean_free_time(const ThermalGas& gas);
 
 /// The same for a mixture, or for rods, in this volume [L^3]: the mean time between two collisions
-/// of a needle, averaged over all needles that move. Needles of one species give what that gives for them in
-/// several. A species has Gaussian velocities with temperatures of its own.
-/// Species a and b collide n_a n_b sqrt(pi / 8) L_a L_b <sigma> times per volume and time, with
-/// sigma^2 = T_tr,a / m_a + T_tr,b / m_b + T_rot,a s^2 / I_a + T_rot,b s'^2 / I_b averaged over s
-/// and s' along the needles; rods of finite width collide more often by their caps, and in dense
-/// gases, which this does not count; see docs/physics.md.
+/// of a needle, averaged over all needles that move. Needles of one species give what that gives
+/// for them in several. A species has Gaussian velocities with temperatures of its own. Species a
+/// and b collide n_a n_b sqrt(pi / 8) L_a L_b <sigma> times per volume and time, with sigma^2 =
+/// T_tr,a / m_a + T_tr,b / m_b + T_rot,a s^2 / I_a + T_rot,b s'^2 / I_b averaged over s and s'
+/// along the needles; rods of finite width collide more often by their caps, and in dense gases,
+/// which this does not count; see docs/physics.md.
 double mean_free_time(const Composition& composition, double volume,
                       std::span<const SpeciesTemperatures> temperatures);
 

@@ -247,7 +247,7 @@ std::string warning_of_unknown_bodies(const Scene& scene, const Bodies& bodies) 
     for (const auto& [key, known, value] : dimensions) {
       const bool is_default = body.*value == Species{}.*value;
       const bool has_none = body.fixed && value == &Species::mass;
-    add_if(!has_none && (bodies.*known).empty() && !is_said(scene, key, n, is_default), key);
+      add_if(!has_none && (bodies.*known).empty() && !is_said(scene, key, n, is_default), key);
     }
     const bool is_k_said = is_said(scene, "k", n, body.k == Species{}.k) ||
                            is_said(scene, "inertia", n, true) || !body.turns();

@@ -257,7 +257,8 @@ std::vector<std::size_t> largest_first(const Members& members) {
   }
   std::vector<std::size_t> out(excluded.size());
   std::iota(out.begin(), out.end(), std::size_t{0});
-  std::ranges::stable_sort(out, std::ranges::greater(), [&](std::size_t id) { return excluded[id]; });
+  std::ranges::stable_sort(out, std::ranges::greater(),
+                           [&](std::size_t id) { return excluded[id]; });
   return out;
 }
 

@@ -26,8 +26,7 @@ void require_numbers(const OwnBodies& bodies, std::size_t count) {
                                      {"mass", &bodies.mass},
                                      {"inertia", &bodies.inertia}}) {
     if (column->empty() || column->size() == count) continue;
-    throw InputError(
-        fmt::format("state: {} rows of {}: expected {}", column->size(), what, count));
+    throw InputError(fmt::format("state: {} rows of {}: expected {}", column->size(), what, count));
   }
 }
 
@@ -60,7 +59,8 @@ void require_in_range(const State& state, std::size_t row, const BodyNumbers& bo
   const auto compare = [&](std::string_view what, double value, double others) {
     if ((value > 0) == (others > 0)) return;
     refuse(what, value,
-           others > 0 ? "a number above 0, as others of its species have" : "0, as for others of its species");
+           others > 0 ? "a number above 0, as others of its species have"
+                      : "0, as for others of its species");
   };
   compare("length", body.length, usual.length);
   compare("diameter", body.diameter, usual.diameter);

@@ -17,9 +17,9 @@ namespace needlework {
 /// Those of a body that is as its species says.
 BodyNumbers numbers_of(const Species& species);
 
-/// The bodies of all rows of a state, completed by what the scene says of their species; empty where
-/// no row has numbers of its own. Throws InputError for numbers out of range, and for species in
-/// which some bodies turn, or have width, and others do not.
+/// The bodies of all rows of a state, completed by what the scene says of their species; empty
+/// where no row has numbers of its own. Throws InputError for numbers out of range, and for species
+/// in which some bodies turn, or have width, and others do not.
 std::vector<BodyNumbers> own_bodies_of(const Composition& composition, const State& state);
 
 /// A number of bodies that may be drawn, with the keys of its distribution.

@@ -47,13 +47,12 @@ RodGrid::RodGrid(const Composition& composition, std::span<const RodShape> rods,
   for (auto first = extents.begin(); first != extents.end();) {
     Level& level = levels_.emplace_back();
     level.extent = *first;
-    const auto last = std::find_if(
-        first, extents.end(), [&](double extent) { return extent <= 0.5 * level.extent; });
+    const auto last = std::find_if(first, extents.end(),
+                                   [&](double extent) { return extent <= 0.5 * level.extent; });
     const auto count = static_cast<double>(last - first);
     first = last;
     // About one rod in each cell, and none shorter than what is in contact.
-    const double side =
-        std::max(level.extent * (1 + 0x1p-20), std::cbrt(box.volume() / count));
+    const double side = std::max(level.extent * (1 + 0x1p-20), std::cbrt(box.volume() / count));
     std::int64_t cells = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       level.counts[axis] = std::max<std::int64_t>(

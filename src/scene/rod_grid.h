@@ -26,8 +26,8 @@ struct RodShape {
 /// other, do not overlap.
 class RodGrid {
  public:
-  /// For these rods of these species, which must outlive the grid. Every edge of the box is at least
-  /// twice the largest extent along periodic axes.
+  /// For these rods of these species, which must outlive the grid. Every edge of the box is at
+  /// least twice the largest extent along periodic axes.
   RodGrid(const Composition& composition, std::span<const RodShape> rods, const Box& box);
 
   /// A rod that overlaps one that has been entered.

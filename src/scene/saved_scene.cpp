@@ -18,8 +18,8 @@ void transfer(Archive& archive, Distribution& distribution) {
   archive(shape);
   archive.require(shape < Distribution::shape_names.size());
   distribution.shape = static_cast<Distribution::Shape>(shape);
-  archive(distribution.mean, distribution.width, distribution.least,
-          distribution.greatest, distribution.exponent);
+  archive(distribution.mean, distribution.width, distribution.least, distribution.greatest,
+          distribution.exponent);
 }
 
 void transfer(Archive& archive, DrawnSizes& drawn) {

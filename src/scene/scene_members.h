@@ -14,8 +14,8 @@ namespace needlework {
 /// `sizes`, which no key gives.
 template <class Species, class Visit>
 void visit_species(Species& species, Visit&& visit) {
-  auto& [name, count, length, mass, k, t_tr, t_rot, diameter, given_inertia, drawn, fixed, overlap, sizes] =
-      species;
+  auto& [name, count, length, mass, k, t_tr, t_rot, diameter, given_inertia, drawn, fixed, overlap,
+         sizes] = species;
   visit("species", "name", name);
   visit("species", "count", count);
   visit("species", "length", length);

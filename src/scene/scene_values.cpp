@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "src/scene/printable.h"
 #include "src/scene/own_bodies.h"
+#include "src/scene/printable.h"
 #include "src/scene/scene_members.h"
 #include "src/scene/section.h"
 

@@ -58,7 +58,8 @@ template <class Own, class There>
 inline void CellScan::set_reach(const ClassCells& own, float bend, Look& look) const {
   const ClassCells& there = *look.cells;
   kernels::Seeker& seeker = look.seeker;
-  seeker.longest_half = there.cells.differ() ? There::besides_reach(look) : There::longest_half(look);
+  seeker.longest_half =
+      there.cells.differ() ? There::besides_reach(look) : There::longest_half(look);
   look.distance = Own::own_reach(own, seeker) + There::reach(there) + look.touching + bend;
   const float in_cells = look.distance + (volume_margin + 2 * seeker.margin);
   look.reach = There::with_entries(there, in_cells) * (1 + 0x1p-18f);
@@ -67,8 +68,8 @@ inline void CellScan::set_reach(const ClassCells& own, float bend, Look& look) c
 inline kernels::Surroundings CellScan::surroundings(const Look& look) const {
   const ClassCells& there = *look.cells;
   const bool in_cache = volumes_.motions.size() <= motions_in_cache;
-  return {there.cells.blocks(), there.cells.next(),  views_.data() + look.first_view,
-          look.views,           there.format,        in_cache ? nullptr : volumes_.motions.data(),
+  return {there.cells.blocks(), there.cells.next(), views_.data() + look.first_view,
+          look.views,           there.format,       in_cache ? nullptr : volumes_.motions.data(),
           there.cells.reaches()};
 }
 

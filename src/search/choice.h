@@ -44,8 +44,7 @@ struct MeanSizes {
 /// of length 1: L^2 for needles, and more by the caps and the width.
 /// (2 L^2 sin + 4 pi D L + 4 pi D^2 for two alike.) [L^2]
 inline double excluded_area(const MeanSizes& a, const MeanSizes& b) {
-  const double sides =
-      a.product + b.product + a.length * b.diameter + a.diameter * b.length;
+  const double sides = a.product + b.product + a.length * b.diameter + a.diameter * b.length;
   return a.length * b.length + 2 * sides + 2 * (a.square + 2 * a.diameter * b.diameter + b.square);
 }
 

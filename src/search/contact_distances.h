@@ -20,13 +20,9 @@ class ContactDistances {
 
   /// The largest distance of the axis of body i from one in a class with which it is in contact;
   /// `widest_half` is half the largest diameter of that class. [unit of length]
-  float largest(Needle i, float widest_half) const {
-    return half_width(i) + widest_half + margin_;
-  }
+  float largest(Needle i, float widest_half) const { return half_width(i) + widest_half + margin_; }
   /// Half its diameter. [unit of length]
-  float half_width(Needle i) const {
-    return half_widths_.empty() ? same_half_ : half_widths_[i];
-  }
+  float half_width(Needle i) const { return half_widths_.empty() ? same_half_ : half_widths_[i]; }
   /// Sets the column `distance` of the first pairs, those of body i with the ones found.
   void set(const kernels::PairColumns& pairs, Needle i, const kernels::Found& found,
            std::size_t count) const;

@@ -50,7 +50,7 @@ class NeedleCells {
   std::uint32_t take_free_block();
   void give_back(std::uint32_t block);
 
-  LargeArray<kernels::NeedleBlock> blocks_;  ///< first those of the cells, then those chained
+  LargeArray<kernels::NeedleBlock> blocks_;    ///< first those of the cells, then those chained
   LargeArray<kernels::BlockReaches> reaches_;  ///< of each block; empty where needles are alike
   LargeArray<std::uint32_t> next_;
   std::vector<std::uint32_t> free_blocks_;

@@ -114,6 +114,60 @@ Scene sheared(Scene scene, double rate, double offset) {
   return scene;
 }
 
+Distribution lognormal(double mean, double width) {
+  return {.shape = Distribution::Shape::lognormal, .mean = mean, .width = width};
+}
+
+// Needles that differ, among others that do not, with rough collisions and a thermostat.
+Scene sizes() {
+  Scene scene = two_lengths(6);
+  scene.collisions.beta = 0.3;
+  scene.species[0].drawn.length = lognormal(0.7, 0.6);
+  scene.species[0].drawn.density = 0.4;
+  scene.species.push_back({.name = "few", .count = 30});
+  scene.species[2].drawn.length = {
+      .shape = Distribution::Shape::powerlaw, .least = 0.1, .greatest = 2.5, .exponent = 2};
+  scene.species[2].drawn.k = {.shape = Distribution::Shape::uniform, .mean = 5, .width = 0.3};
+  scene.driving.andersen = {.rate = 0.3, .temperature = 1};
+  return scene;
+}
+
+Scene sizes_of_rods() {
+  Scene scene = scene_of(0, 8);
+  scene.species = {{.name = "rods", .count = 60}, {.name = "balls", .count = 40, .length = 0}};
+  scene.species[0].drawn.length = lognormal(1, 0.3);
+  scene.species[0].drawn.aspect = 4;
+  scene.species[0].drawn.density = 5;
+  scene.species[1].drawn.diameter = lognormal(0.8, 0.4);
+  scene.walls = {{.axis = "z", .side = "low"}, {.axis = "z", .side = "high", .temperature = 2}};
+  scene.driving.kicks = {.every = 0.5, .translational = 0.1, .rotational = 0.2};
+  return scene;
+}
+
+Scene sizes_of_spheres() {
+  Scene scene = scene_of(0, 8);
+  scene.species = {{.name = "balls", .count = 300, .length = 0}};
+  scene.species[0].drawn.diameter = lognormal(0.9, 0.2);
+  scene.species[0].drawn.density = 2;
+  scene.collisions.epsilon = 0.9;
+  scene.collisions.tc = 1e-4;
+  return scene;
+}
+
+// Needles among fixed ones, which differ, and which only some of them meet.
+Scene among_fixed() {
+  Scene scene = scene_of(0, 5, 3);
+  scene.species = {{.name = "moving", .count = 60},
+                   {.name = "lonely", .count = 40, .mass = 2},
+                   {.name = "still", .count = 100, .fixed = true}};
+  scene.species[2].drawn.length = lognormal(0.8, 0.3);
+  scene.pairs = {{.between = {"lonely", "moving"}, .epsilon = {}, .beta = {}, .meet = false},
+                 {.between = {"still", "moving"}, .epsilon = 0.9, .beta = 0.2}};
+  scene.walls = {{.axis = "z", .side = "both"}};
+  scene.driving.kicks = {.every = 0.3, .translational = 0.3, .rotational = 0.3};
+  return scene;
+}
+
 }  // namespace
 
 std::vector<EffectScene> effect_scenes() {
@@ -168,6 +222,12 @@ std::vector<EffectScene> effect_scenes() {
   driven.walls = {{.axis = "z", .side = "low", .epsilon = 0.9},
                   {.axis = "z", .side = "high", .temperature = 1.5}};
   driven.walls[0].motion = {.amplitude = 0.1, .frequency = 2, .phase = 1};
+
+  add("sizes", sizes(), until_collisions(8));
+  add("sizes_of_rods", sizes_of_rods(), until_collisions(8));
+  add("sizes_of_spheres", sizes_of_spheres(), until_collisions(12));
+  add("sheared_sizes", sheared(sizes(), 0.7, 1.1), until_collisions(6)).driving = {};
+  add("among_fixed", among_fixed(), until_collisions(8));
 
   add("sliding", sliding(100, 5, 0), until_time(1));
   add("sliding_after_bounces", sliding(100, 5, 0.5), until_collisions(12));
