@@ -172,16 +172,17 @@ inline float rough_guess_adds(float half) {
   return (4 * rough_spare * rough_spare) * (half * half);
 }
 
-Scan near_capsules(const Surroundings& around, const Seeker& seeker, float distance,
-                   const Found& found) {
+template <bool differ>
+Scan near_capsules_as(const Surroundings& around, const Seeker& seeker, float distance,
+                      const Found& found) {
   const Floats base(around.format.base);
   const V3 r = on_scale_of_words(seeker.r, around.format), u = broadcast(seeker.u);
   // As for overlapping(), but what rounding does to the gap grows with the seeker's segment.
   const float near = distance + seeker.margin + 4 * static_cast<float>(around.format.step()) +
                      (1 + seeker.axis_half) * 0x1p-17f;
   const Floats near_squared(near * near + rough_guess_adds(seeker.axis_half));
-  const HalfLengths<Floats> half =
-      half_lengths(Floats(seeker.axis_half), Floats(seeker.longest_half));
+  const Floats own_half(seeker.axis_half), longest_half(seeker.longest_half);
+  const HalfLengths<Floats> half_of_longest = half_lengths(own_half, longest_half);
   const auto test = [&](const NeedleBlock& block, std::size_t lane,
                         const float* offset) NEEDLEWORK_TARGET {
     const V3 from{r.x - Floats(offset[0]), r.y - Floats(offset[1]), r.z - Floats(offset[2])};
@@ -189,10 +190,19 @@ Scan near_capsules(const Surroundings& around, const Seeker& seeker, float dista
     const V3 d = from - places_of(words, base);
     const V3 a = V3{signed_numbers(words.x), signed_numbers(words.y), signed_numbers(words.z)} *
                  Floats(0x1p-31f);
+    HalfLengths<Floats> half = half_of_longest;
+    if constexpr (differ)
+      half = half_lengths(own_half, reach_of(around, block, lane, longest_half));
     const V3 x = cross(u, a);
     return segment_distance_squared(d, u, a, x, dot(x, x), half) <= near_squared;
   };
   return scan(around, seeker, found, test);
+}
+
+Scan near_capsules(const Surroundings& around, const Seeker& seeker, float distance,
+                   const Found& found) {
+  return around.reaches ? near_capsules_as<true>(around, seeker, distance, found)
+                        : near_capsules_as<false>(around, seeker, distance, found);
 }
 
 Scan near_paths(const Surroundings& around, const Seeker& seeker, float distance,

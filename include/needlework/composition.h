@@ -20,7 +20,8 @@ struct DrawnSizes {
   std::optional<double> density = {};  ///< the mass: of thin needles per length [m / L], of rods
                                        ///< and spheres, whose inertia is then that of homogeneous
                                        ///< ones unless k is given, per volume [m / L^3]
-  std::optional<double> aspect = {};  ///< the diameter: length over diameter
+  std::optional<double> aspect = {};   ///< the diameter: length over diameter
+  bool homogeneous = false;            ///< k of each rod follows from its shape
 
   friend bool operator==(const DrawnSizes&, const DrawnSizes&) = default;
 };

@@ -18,6 +18,7 @@
 #include "src/physics/vectors.h"
 #include "src/scene/box_of.h"
 #include "src/scene/confinement.h"
+#include "src/scene/own_bodies.h"
 
 namespace needlework {
 
@@ -53,7 +54,7 @@ void require_flight(const kernels::Flight& f) {
 
 // Such numbers that all means and searches are right.
 void require_body(const BodyNumbers& body, const Species& species) {
-  require(species.sizes.has_value());
+  if (!species.sizes) return require(body == numbers_of(species));
   const Sizes& sizes = *species.sizes;
   const double extent = body.length + body.diameter;
   require(extent >= sizes.least_extent && extent <= sizes.greatest_extent);

@@ -24,7 +24,7 @@ void transfer(Archive& archive, Distribution& distribution) {
 
 void transfer(Archive& archive, DrawnSizes& drawn) {
   for (const DrawnQuantity& each : drawn_quantities) archive(drawn.*each.member);
-  archive(drawn.density, drawn.aspect);
+  archive(drawn.density, drawn.aspect, drawn.homogeneous);
 }
 
 void transfer(Archive& archive, Scene::Species& species) {

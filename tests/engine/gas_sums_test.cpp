@@ -68,7 +68,7 @@ TEST(GasSums, HaveTheBitsOfPlainOnesWhereNeedlesAreAlike) {
        {Species{}, Species{.count = 3, .length = 0.3, .mass = 0.7, .k = 3.3},
         Species{.count = 3, .length = 0, .mass = 1.1, .diameter = 0.3}}) {
     const Gas gas = gas_of(species);
-    const Weight weight = weight_of(gas, gas.records[1]);
+    const Weight weight = weight_of(gas, Needle(1));
     EXPECT_EQ(weight.mass, 1);
     EXPECT_EQ(weight.inertia, 1);
     EXPECT_TRUE(gas.bodies_are_of(0));

@@ -65,8 +65,9 @@ std::optional<Violation> more_needles_than_ids(const Scene& scene) {
 }
 
 std::optional<Violation> body_has_no_extent(const Scene& scene) {
+  const Composition composition = scene.composition();
   for (std::size_t n = 0; n < scene.species.size(); ++n) {
-    const Species& species = scene.species[n];
+    const Species& species = composition[n];
     if (species.extent() > 0) continue;
     return Violation{.key = key_of_entry("species.length", n),
                      .value = fmt::to_string(species.length),
