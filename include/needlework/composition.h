@@ -17,24 +17,25 @@ namespace needlework {
 /// the number of the species.
 struct DrawnSizes {
   std::optional<Distribution> length = {}, diameter = {}, mass = {}, k = {}, inertia = {};
-  std::optional<double> density = {};  ///< the mass: of thin needles per length [m / L], of rods and
-                                       ///< spheres, whose inertia is then that of homogeneous ones
-                                       ///< unless k is given, per volume [m / L^3]
-  std::optional<double> aspect = {};   ///< the diameter: length over diameter
+  std::optional<double> density = {};  ///< the mass: of thin needles per length [m / L], of rods
+                                       ///< and spheres per volume [m / L^3]
+  std::optional<double> aspect = {};  ///< the diameter: length over diameter
+  bool homogeneous = false;           ///< k of rods follows from their shapes, whatever the species
+                                      ///< says; of thin needles it is that of the species
 
   friend bool operator==(const DrawnSizes&, const DrawnSizes&) = default;
 };
 
 /// What bodies of a species are whose sizes differ: means over them, and how far they reach.
 struct Sizes {
-  double product = 0;  ///< of length and diameter, the mean [L^2]
-  double square = 0;   ///< of the diameter [L^2]
-  double cube = 0;     ///< of the diameter [L^3]
-  double volume = 0;   ///< the mean; so that of all is exact [L^3]
-  double least_extent = 0, greatest_extent = 0;      ///< from end to end [L]
+  double product = 0;                                 ///< of length and diameter, the mean [L^2]
+  double square = 0;                                  ///< of the diameter [L^2]
+  double cube = 0;                                    ///< of the diameter [L^3]
+  double volume = 0;                                  ///< the mean; so that of all is exact [L^3]
+  double least_extent = 0, greatest_extent = 0;       ///< from end to end [L]
   double greatest_length = 0, greatest_diameter = 0;  ///< [L]
-  double least_diameter = 0;                         ///< [L]
-  double least_mass = 0, least_inertia = 0;          ///< [m], [m L^2]
+  double least_diameter = 0;                          ///< [L]
+  double least_mass = 0, least_inertia = 0;           ///< [m], [m L^2]
 
   friend bool operator==(const Sizes&, const Sizes&) = default;
 };
@@ -71,9 +72,7 @@ struct Species {
   double greatest_diameter() const { return sizes ? sizes->greatest_diameter : diameter; }
   double greatest_length() const { return sizes ? sizes->greatest_length : length; }
   /// The mass as files and other programs have it: infinite of fixed ones. [m]
-  double mass_or_infinity() const {
-    return fixed ? std::numeric_limits<double>::infinity() : mass;
-  }
+  double mass_or_infinity() const { return fixed ? std::numeric_limits<double>::infinity() : mass; }
   double volume() const;  ///< the mean [L^3]
   /// The means of length times diameter, and of the diameter squared. [L^2]
   double product() const { return sizes ? sizes->product : length * diameter; }
@@ -156,7 +155,8 @@ class Composition {
   /// Whether these are rods, which collide where their axes are their mean diameter apart.
   bool has_width() const { return widest() > 0; }
   bool are_spheres() const;  ///< whether no body has an axis
-  /// Share of the moving bodies that turn, over which rotational temperatures are averaged; 1 of none.
+  /// Share of the moving bodies that turn, over which rotational temperatures are averaged; 1 of
+  /// none.
   double turning_share() const;
   /// The distance of the axes of two rods in contact. [L]
   double contact_distance(std::size_t a, std::size_t b) const {

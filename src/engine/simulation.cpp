@@ -272,19 +272,33 @@ struct Simulation::Implementation {
 
 namespace {
 
-// The scene of the bodies that a state has.
-Scene with_bodies_of(const State& initial, Scene scene) {
-  adopt_own_bodies(scene, initial);
-  return scene;
-}
+// A scene with a state from which it starts, and the bodies of the two.
+class SceneWithState {
+ public:
+  SceneWithState(const Scene& scene, const State& state) : scene_(scene), state_(state) {
+    if (lacks_numbers(scene, state)) {
+      completed_ = state;
+      completed_->own_bodies = all_numbers_of(scene, state);
+    }
+    adopt_own_bodies(scene_, this->state());
+  }
+
+  const Scene& scene() const { return scene_; }
+  const State& state() const { return completed_ ? *completed_ : state_; }
+
+ private:
+  Scene scene_;
+  const State& state_;
+  std::optional<State> completed_;
+};
 
 }  // namespace
 
 void require_simulable(const Scene& scene, const State& initial) {
   const kernels::DefaultArithmetic arithmetic;
   require_valid(scene, simulable);
-  const Scene its = with_bodies_of(initial, scene);
-  const Run run(its, make_gas(its, initial));
+  const SceneWithState both(scene, initial);
+  const Run run(both.scene(), make_gas(both.scene(), both.state()));
 }
 
 namespace {
@@ -328,8 +342,7 @@ std::string why_no_collision(const Scene& drawn) {
   if (goes_on(drawn, composition, composition.count())) return "";
   if (composition.count() == 0) return words_for(Collisionless::no_needles);
   if (composition.count() == 1) return words_for(Collisionless::one_needle);
-  if (are_passing(composition, composition.count()))
-    return words_for(Collisionless::passing);
+  if (are_passing(composition, composition.count())) return words_for(Collisionless::passing);
   const bool at_rest = std::ranges::all_of(composition.species(), [](const Species& species) {
     return species.t_tr == 0 && species.t_rot == 0;
   });
@@ -369,8 +382,9 @@ Simulation::Simulation(const Scene& scene) {
 Simulation::Simulation(const Scene& scene, const State& initial) {
   const kernels::DefaultArithmetic arithmetic;
   require_valid(scene, simulable);
-  const Scene its = with_bodies_of(initial, scene);
-  implementation_ = std::make_unique<Implementation>(its, make_gas(its, initial));
+  const SceneWithState both(scene, initial);
+  implementation_ =
+      std::make_unique<Implementation>(both.scene(), make_gas(both.scene(), both.state()));
 }
 
 Simulation::Simulation(const Scene& scene, const Checkpoint& checkpoint) {
@@ -553,7 +567,8 @@ std::uint64_t Simulation::collisions() const { return implementation_->run.tally
 double Simulation::initial_energy() const {
   const Access self = access();
   const Run& run = self->run;
-  return (run.initial_energy - energy_of_low_edges(run.gas)) / static_cast<double>(run.gas.moving());
+  return (run.initial_energy - energy_of_low_edges(run.gas)) /
+         static_cast<double>(run.gas.moving());
 }
 double Simulation::energy_drift() const { return access()->run.energy_drift(); }
 double Simulation::epoch_length() const { return implementation_->run.gas.clock.epoch_length(); }

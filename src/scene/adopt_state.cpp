@@ -109,6 +109,22 @@ Species completed(const Scene& scene, Species body, std::size_t n, const Bodies&
   return body;
 }
 
+// Of what a state says whose bodies are alike.
+void require_nothing_drawn(const Scene& scene, const Bodies& bodies) {
+  for (std::size_t n = 0; n < scene.species.size(); ++n) {
+    for (const auto& [key, known, value] : dimensions) {
+      const std::vector<double>& numbers = bodies.*known;
+      const auto its =
+          std::ranges::find(drawn_quantities, std::string_view(key), &DrawnQuantity::name);
+      const auto& distribution = scene.species[n].drawn.*its->member;
+      if (n >= numbers.size() || !distribution) continue;
+      const std::string name = key_of_entry(fmt::format("species.{}", its->keys[0]), n);
+      refuse(scene, place_of(scene, name, name_of(distribution->shape)),
+             fmt::to_string(numbers[n]));
+    }
+  }
+}
+
 void require_one_number_a_species(const Scene& scene, const Bodies& bodies) {
   for (const auto& [name, size] : {std::pair("names", bodies.names.size()),
                                    {"length", bodies.length.size()},
@@ -216,10 +232,12 @@ void adopt_bodies(Scene& scene, const Bodies& bodies) {
   }
 }
 
-void adopt_state(Scene& scene, const State& state) {
+void adopt_state(Scene& scene, State& state) {
+  if (state.own_bodies.empty()) require_nothing_drawn(scene, state.bodies);
   adopt_bodies(scene, state.bodies);
   require_rules(scene, Aspect::species | Aspect::bodies | Aspect::pairs | Aspect::effects);
   adopt_count_and_box(scene, state);
+  if (lacks_numbers(scene, state)) state.own_bodies = all_numbers_of(scene, state);
   adopt_own_bodies(scene, state);
   if (scene.places.contains("needles.box")) require_rules(scene, Aspect::room);
 }
@@ -247,7 +265,7 @@ std::string warning_of_unknown_bodies(const Scene& scene, const Bodies& bodies) 
     for (const auto& [key, known, value] : dimensions) {
       const bool is_default = body.*value == Species{}.*value;
       const bool has_none = body.fixed && value == &Species::mass;
-    add_if(!has_none && (bodies.*known).empty() && !is_said(scene, key, n, is_default), key);
+      add_if(!has_none && (bodies.*known).empty() && !is_said(scene, key, n, is_default), key);
     }
     const bool is_k_said = is_said(scene, "k", n, body.k == Species{}.k) ||
                            is_said(scene, "inertia", n, true) || !body.turns();

@@ -18,13 +18,13 @@ void transfer(Archive& archive, Distribution& distribution) {
   archive(shape);
   archive.require(shape < Distribution::shape_names.size());
   distribution.shape = static_cast<Distribution::Shape>(shape);
-  archive(distribution.mean, distribution.width, distribution.least,
-          distribution.greatest, distribution.exponent);
+  archive(distribution.mean, distribution.width, distribution.least, distribution.greatest,
+          distribution.exponent);
 }
 
 void transfer(Archive& archive, DrawnSizes& drawn) {
   for (const DrawnQuantity& each : drawn_quantities) archive(drawn.*each.member);
-  archive(drawn.density, drawn.aspect);
+  archive(drawn.density, drawn.aspect, drawn.homogeneous);
 }
 
 void transfer(Archive& archive, Scene::Species& species) {

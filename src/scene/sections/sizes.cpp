@@ -16,8 +16,7 @@ namespace {
 using namespace from_value;
 using Shape = Distribution::Shape;
 
-constexpr const char* expected_shape =
-    R"("uniform", "normal", "lognormal", "gamma" or "powerlaw")";
+constexpr const char* expected_shape = R"("uniform", "normal", "lognormal", "gamma" or "powerlaw")";
 constexpr ValueRange any_size{1e-200, 1e200};
 
 template <auto quantity>
@@ -46,13 +45,12 @@ void add_keys(const DrawnQuantity& its, std::vector<SceneKey>& to) {
   to.push_back({keys[1], Aspect::bodies, any_size, "a number > 0", [](Scene& s, V v, R r) {
                   return store(distribution_of<quantity>(s).mean, number(v, r));
                 }});
-  to.push_back({keys[2],
-                Aspect::bodies,
-                {0, 1},
-                "the standard deviation over the mean, from 0 to 1",
-                [](Scene& s, V v, R r) {
-                  return store(distribution_of<quantity>(s).width, number(v, r));
-                }});
+  to.push_back(
+      {keys[2],
+       Aspect::bodies,
+       {0, 1},
+       "the standard deviation over the mean, from 0 to 1",
+       [](Scene& s, V v, R r) { return store(distribution_of<quantity>(s).width, number(v, r)); }});
   to.push_back({keys[3], Aspect::bodies, any_size, "a number > 0", [](Scene& s, V v, R r) {
                   return store(distribution_of<quantity>(s).least, number(v, r));
                 }});
@@ -85,14 +83,25 @@ std::optional<Violation> distribution_is_wrong(const Scene& scene) {
       }
       const auto wrong = what_is_wrong(*distribution);
       if (!wrong) continue;
-      return Violation{
-          .key = key(wrong->name),
-          .value = wrong->value ? fmt::to_string(*wrong->value) : "",
-          .reason = fmt::format("{}expected {} of a {} distribution", wrong->value ? "" : "missing: ",
-                                wrong->expected, name_of(distribution->shape))};
+      return Violation{.key = key(wrong->name),
+                       .value = wrong->value ? fmt::to_string(*wrong->value) : "",
+                       .reason = fmt::format("{}expected {} of a {} distribution",
+                                             wrong->value ? "" : "missing: ", wrong->expected,
+                                             name_of(distribution->shape))};
     }
   }
   return {};
+}
+
+// The key by which a species says how a number of its bodies comes about.
+std::string key_of_quantity(const Species& species, std::string_view quantity) {
+  if (quantity == "inertia" && species.drawn.k) return key_of_quantity(species, "k");
+  const auto its = std::ranges::find(drawn_quantities, quantity, &DrawnQuantity::name);
+  if (const auto& distribution = species.drawn.*its->member)
+    return fmt::format("{}.{}", quantity, distribution->mean ? "mean" : "min");
+  if (quantity == "mass" && species.drawn.density) return "mass.density";
+  if (quantity == "diameter" && species.drawn.aspect) return "diameter.aspect";
+  return std::string(quantity);
 }
 
 // What would be drawn is known to be a body that a scene may have.
@@ -103,7 +112,8 @@ std::optional<Violation> drawn_body_is_impossible(const Scene& scene) {
     const auto wrong = wrong_body_of(species, scene.needles.seed, first);
     first += species.count;
     if (!wrong) continue;
-    return Violation{.key = key_of_entry(fmt::format("species.{}", wrong->quantity), n),
+    const std::string key = key_of_quantity(species, wrong->quantity);
+    return Violation{.key = key_of_entry("species." + key, n),
                      .value = {},
                      .reason = fmt::format("needle {} would have {}: expected {}", wrong->id,
                                            wrong->value, wrong->expected)};
@@ -118,22 +128,20 @@ void add_sizes(SceneSection& species) {
   using R = const ValueRange&;
   add_keys<&DrawnSizes::length>(drawn_quantities[0], species.keys);
   add_keys<&DrawnSizes::diameter>(drawn_quantities[1], species.keys);
-  species.keys.push_back({"diameter.aspect",
-                          Aspect::bodies,
-                          {1e-6, 1e6},
-                          "length over diameter, > 0 (from 1e-6 to 1e6)",
-                          [](Scene& s, V v, R r) {
-                            return store(s.species.back().drawn.aspect, number(v, r));
-                          }});
+  species.keys.push_back(
+      {"diameter.aspect",
+       Aspect::bodies,
+       {1e-6, 1e6},
+       "length over diameter, > 0 (from 1e-6 to 1e6)",
+       [](Scene& s, V v, R r) { return store(s.species.back().drawn.aspect, number(v, r)); }});
   add_keys<&DrawnSizes::mass>(drawn_quantities[2], species.keys);
-  species.keys.push_back({"mass.density",
-                          Aspect::bodies,
-                          {1e-100, 1e100},
-                          "mass per length of thin needles, mass per volume of rods and spheres, "
-                          "> 0 (from 1e-100 to 1e100)",
-                          [](Scene& s, V v, R r) {
-                            return store(s.species.back().drawn.density, number(v, r));
-                          }});
+  species.keys.push_back(
+      {"mass.density",
+       Aspect::bodies,
+       {1e-100, 1e100},
+       "mass per length of thin needles, mass per volume of rods and spheres, "
+       "> 0 (from 1e-100 to 1e100)",
+       [](Scene& s, V v, R r) { return store(s.species.back().drawn.density, number(v, r)); }});
   add_keys<&DrawnSizes::k>(drawn_quantities[3], species.keys);
   add_keys<&DrawnSizes::inertia>(drawn_quantities[4], species.keys);
   // Before others look at what is drawn.

@@ -64,10 +64,15 @@ std::optional<Violation> more_needles_than_ids(const Scene& scene) {
   return out;
 }
 
+// As a number or as it is drawn.
+bool has_width(const Species& species) {
+  return species.diameter > 0 || species.drawn.diameter || species.drawn.aspect;
+}
+
 std::optional<Violation> body_has_no_extent(const Scene& scene) {
   for (std::size_t n = 0; n < scene.species.size(); ++n) {
     const Species& species = scene.species[n];
-    if (species.extent() > 0) continue;
+    if (species.length > 0 || species.drawn.length || has_width(species)) continue;
     return Violation{.key = key_of_entry("species.length", n),
                      .value = fmt::to_string(species.length),
                      .reason = "expected a length above 0, or a diameter, which makes it a sphere"};
@@ -86,6 +91,7 @@ std::optional<Violation> inertia_is_impossible(const Scene& scene) {
     const double k =
         species.mass * (species.length * species.length) / (2 * *species.given_inertia);
     if (!species.turns() || range_of_k.holds(k)) continue;
+    if (species.drawn != DrawnSizes{}) continue;  // each body is looked at
     out.reason = fmt::format("expected one with which k = m L^2 / (2 I) is from {:g} to {:g}",
                              range_of_k.least, range_of_k.greatest);
     return out;
@@ -96,9 +102,8 @@ std::optional<Violation> inertia_is_impossible(const Scene& scene) {
 // Two needles meet where they cross, and two rods where their axes are some distance apart; there
 // is no such distance between needles, which pass through each other's place after a contact.
 std::optional<Violation> needles_are_among_rods(const Scene& scene) {
-  const auto is_rod = [](const Species& each) { return each.diameter > 0; };
-  const auto first = std::ranges::find_if_not(scene.species, is_rod);
-  if (first == scene.species.end() || std::ranges::none_of(scene.species, is_rod)) return {};
+  const auto first = std::ranges::find_if_not(scene.species, has_width);
+  if (first == scene.species.end() || std::ranges::none_of(scene.species, has_width)) return {};
   return Violation{
       .key =
           key_of_entry("species.diameter", static_cast<std::size_t>(first - scene.species.begin())),
@@ -151,8 +156,9 @@ std::optional<Violation> pair_that_never_meets_collides(const Scene& scene) {
     if (pair.meet || !(pair.epsilon || pair.beta)) continue;
     return Violation{.key = key_of_entry("pairs.meet", n),
                      .value = "false",
-                     .reason = "expected either meet = false or epsilon and beta, not both: bodies "
-                               "that pass through each other have no rule of collisions",
+                     .reason =
+                         "expected either meet = false or epsilon and beta, not both: bodies "
+                         "that pass through each other have no rule of collisions",
                      .or_keys = {key_of_entry("pairs.epsilon", n), key_of_entry("pairs.beta", n)}};
   }
   return {};
@@ -201,10 +207,7 @@ SceneSection species_section() {
                [](Scene& s, V v, R r) { return store(s.species.back().length, number(v, r)); }},
               {"diameter", Aspect::bodies, lengths, expected_diameter,
                [](Scene& s, V v, R r) { return store(s.species.back().diameter, number(v, r)); }},
-              {"mass",
-               Aspect::bodies,
-               masses,
-               "a number > 0 (from 1e-100 to 1e100)",
+              {"mass", Aspect::bodies, masses, "a number > 0 (from 1e-100 to 1e100)",
                [](Scene& s, V v, R r) { return store(s.species.back().mass, number(v, r)); }},
               {"k", Aspect::bodies, range_of_k, expected_k,
                [](Scene& s, V v, R r) { return store(s.species.back().k, number(v, r)); }},
