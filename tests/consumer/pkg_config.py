@@ -65,6 +65,7 @@ species short 1  0.50  1.00  0.8533
 species long 2  1.00  4.00  0.2400
 long with short: 1  1.0 -1.0
 species of the needles 1 0 1
+lengths and masses  1.0  0.5  1.0  4.0  1.0  9.0
 """
 
 
