@@ -293,8 +293,7 @@ std::vector<Description> own_body_descriptions() {
   return {{"/particles/needles/length", "Length of the axis of each needle", length, each},
           {"/particles/needles/diameter", "Diameter of each rod", length, each},
           {"/particles/needles/inertia",
-           "Moment of inertia of each needle about an axis through its centre, normal to it",
-           "mass length^2", each}};
+           "Moment of inertia of each needle, about axes normal to it", "mass length^2", each}};
 }
 
 std::vector<Description> series_descriptions(const std::vector<SeriesGroup>& groups) {

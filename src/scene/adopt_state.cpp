@@ -80,13 +80,15 @@ double k_of(const Scene& scene, const Species& body, std::size_t n, const Bodies
   return is_k_said || body.diameter == 0 ? body.k : homogeneous_k(body.length, body.diameter);
 }
 
-// Whether bodies are fixed, which files say by an infinite mass.
+// Whether bodies are fixed, which files say by an infinite mass. Where the scene is silent, they
+// may overlap each other, as they are where they are.
 bool adopt_fixed(const Scene& scene, Species& body, std::size_t n, bool expected) {
   if (!scene.species.empty() && body.fixed != expected) {
     refuse(scene, place_of(scene, key_of_entry("species.fixed", n), body.fixed ? "true" : "false"),
            expected ? "true" : "false");
   }
   body.fixed = expected;
+  if (scene.species.empty()) body.overlap = expected;
   return expected;
 }
 

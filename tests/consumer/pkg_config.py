@@ -30,6 +30,10 @@ light: T_tr 0.456, T_rot 0.470
 heavy: T_tr 0.678, T_rot 0.570
 light with heavy: 2008
 """,
+    "sizes": """\
+shorter than 1: 239, T_tr 0.090
+longer than 1: 161, T_tr 0.067
+""",
 }
 
 # What fortran/images.f90 prints: the first needle has left the box twice, once at either end.

@@ -87,6 +87,10 @@ class OwnBodies(support.InFolder):
         again = needlework.Simulation.resume(path)
         for name in NUMBERS:
             np.testing.assert_array_equal(again.state[name], sim.state[name])
+        again.run(collisions=120)
+        whole = needlework.Simulation(SCENE)
+        whole.run(collisions=120)
+        self.assertEqual(again.hash, whole.hash)
 
     def test_what_is_not_given_follows_from_the_scene(self):
         start = needlework.Simulation({"needles": {"box": 5.0, "count": 10}}).state

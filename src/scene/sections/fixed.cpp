@@ -61,9 +61,10 @@ std::optional<Violation> fixed_bodies_are_not_simulated(const Scene& scene) {
                      .or_keys = {std::move(other)}};
   };
   if (has_gravity(scene)) {
-    return refused("expected no gravity: beside fixed bodies, the relative motion of a pair is a "
-                   "parabola, which is not simulated",
-                   "forces.gravity");
+    return refused(
+        "expected no gravity: beside fixed bodies, the relative motion of a pair is a "
+        "parabola, which is not simulated",
+        "forces.gravity");
   }
   if (scene.collisions.sliding)
     return refused("expected no sliding contacts, which are of two needles that move",
