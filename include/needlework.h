@@ -321,7 +321,7 @@ NEEDLEWORK_API int needlework_sample(needlework_simulation* simulation, int fram
  * [[species]] has one. */
 typedef struct needlework_species {
   uint64_t count;
-  double length, mass, k;
+  double length, mass, k; /* means where bodies differ; the mass of fixed ones is infinite */
   double t_tr, t_rot; /* at the present time: (2/3) <m v^2 / 2> and <I w^2 / 2> of its needles */
 } needlework_species;
 
@@ -369,7 +369,8 @@ typedef struct needlework_rods {
 /* Copies what is known of rods at the present time. [handle] */
 NEEDLEWORK_API int needlework_get_rods(needlework_simulation* simulation, needlework_rods* rods);
 /* Writes the diameter of a species, 0 of needles, and its moment of inertia about an axis through
- * the centre and normal to its own, 0 of spheres (NULL: not wanted). [handle] */
+ * the centre and normal to its own, 0 of spheres (NULL: not wanted); means where bodies differ.
+ * [handle] */
 NEEDLEWORK_API int needlework_get_species_shape(needlework_simulation* simulation, size_t index,
                                                 double* diameter, double* inertia);
 
@@ -638,6 +639,28 @@ NEEDLEWORK_API int needlework_ratio(const needlework_gas* gas, double* ratio,
 NEEDLEWORK_API int needlework_cooling(const needlework_gas* gas, double t_tr0, double t_rot0,
                                       size_t count, const double* tau, double* t_tr, double* t_rot,
                                       needlework_error* error);
+
+/* ---- Bodies that differ within a species ------------------------------------------------------
+ */
+
+/* Numbers of each needle, arrays of as many; each NULL: what follows from the scene. */
+typedef struct needlework_bodies {
+  const double* length;   /* of the axes, without the caps */
+  const double* diameter; /* 0: thin needles */
+  const double* mass;     /* infinite of fixed needles */
+  const double* inertia;  /* about axes through the centre, normal to the needle's; 0 of spheres */
+} needlework_bodies;
+
+/* needlework_create_with_species() for such bodies, by the rows of `initial`. NULL: the needles of
+ * a species are alike, or as the scene draws them. [any] */
+NEEDLEWORK_API needlework_simulation* needlework_create_with_bodies(
+    const char* scene, const needlework_initial* initial, const int32_t* image,
+    const uint8_t* species, const needlework_bodies* bodies, unsigned flags,
+    needlework_error* error);
+/* Copies these numbers of each needle, by increasing id, to arrays of needlework_count() numbers
+ * (NULL: not wanted), whether they differ or not. [handle] */
+NEEDLEWORK_API int needlework_get_bodies(needlework_simulation* simulation, double* length,
+                                         double* diameter, double* mass, double* inertia);
 
 #ifdef __cplusplus
 }

@@ -35,6 +35,11 @@ module needlework
     real(c_double) :: slide = 0
   end type
 
+  type, bind(c) :: needlework_bodies
+    type(c_ptr) :: length = c_null_ptr, diameter = c_null_ptr, mass = c_null_ptr, &
+      inertia = c_null_ptr
+  end type
+
   type, bind(c) :: needlework_state
     type(needlework_vectors) :: position, velocity, orientation, angular_velocity
     type(c_ptr) :: image = c_null_ptr, id = c_null_ptr
@@ -259,6 +264,20 @@ module needlework
       type(needlework_error), intent(out), optional :: error
     end function
 
+    ! Members of `bodies` are c_loc() of arrays with one number for each needle, or c_null_ptr.
+    type(c_ptr) function needlework_create_with_bodies(scene, initial, image, species, bodies, &
+        flags, error) bind(c)
+      import :: c_ptr, c_char, c_int, c_int8_t, c_int32_t, needlework_error, needlework_initial, &
+        needlework_bodies
+      character(kind=c_char), intent(in) :: scene(*)
+      type(needlework_initial), intent(in) :: initial
+      integer(c_int32_t), intent(in), optional :: image(3, *)
+      integer(c_int8_t), intent(in), optional :: species(*)
+      type(needlework_bodies), intent(in), optional :: bodies
+      integer(c_int), value :: flags
+      type(needlework_error), intent(out), optional :: error
+    end function
+
     ! `file`, an output file, ends with c_null_char. The result is a null pointer on failure.
     type(c_ptr) function needlework_resume(file, error) bind(c)
       import :: c_ptr, c_char, needlework_error
@@ -427,6 +446,12 @@ module needlework
       import :: c_ptr, c_int, c_int8_t
       type(c_ptr), value :: simulation
       integer(c_int8_t), intent(inout) :: species(*)
+    end function
+
+    integer(c_int) function needlework_get_bodies(simulation, length, diameter, mass, inertia) bind(c)
+      import :: c_ptr, c_int, c_double
+      type(c_ptr), value :: simulation
+      real(c_double), intent(inout), optional :: length(*), diameter(*), mass(*), inertia(*)
     end function
 
     ! `name` ends with c_null_char. `data` is c_loc() of `size` bytes, or c_null_ptr.

@@ -18,10 +18,10 @@ namespace needlework {
 struct DrawnSizes {
   std::optional<Distribution> length = {}, diameter = {}, mass = {}, k = {}, inertia = {};
   std::optional<double> density = {};  ///< the mass: of thin needles per length [m / L], of rods
-                                       ///< and spheres, whose inertia is then that of homogeneous
-                                       ///< ones unless k is given, per volume [m / L^3]
+                                       ///< and spheres per volume [m / L^3]
   std::optional<double> aspect = {};   ///< the diameter: length over diameter
-  bool homogeneous = false;            ///< k of each rod follows from its shape
+  bool homogeneous = false;  ///< k of rods follows from their shapes, whatever the species
+                             ///< says; of thin needles it is that of the species
 
   friend bool operator==(const DrawnSizes&, const DrawnSizes&) = default;
 };

@@ -39,6 +39,14 @@ def flags(name: str, values: ArrayLike) -> np.ndarray:
     return array.astype(bool)
 
 
+def column(name: str, values: ArrayLike, count: int) -> np.ndarray:
+    """The values in double precision, of shape [count]."""
+    array = numbers(name, values)
+    if array.shape != (count,):
+        raise InputError(f"{name}: shape {array.shape}: expected ({count},)")
+    return array
+
+
 def whole_numbers(name: str, values: ArrayLike, shape: tuple[int, ...], least: int,
                   most: int) -> np.ndarray:
     """The values as whole numbers from least to most, of this shape."""

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .errors import InputError, IoError
-from .state import ARRAYS, NUMBERS_OF_BODIES, Bodies, State
+from .state import ARRAYS, NUMBERS_OF_BODIES, OWN_NUMBERS, Bodies, State
 from .tilt import counted, reduced_tilt
 from .values import NotPickled
 
@@ -95,12 +95,38 @@ class Frame(NotPickled):
         return self._needles.row("species", 1, self._index, np.uint8)
 
     @property
+    def length(self) -> np.ndarray:
+        """Length of the axis of each needle, [N] [L]; not a number where the file does not say it,
+        as for the next three."""
+        return self._numbers("length")
+
+    @property
+    def diameter(self) -> np.ndarray:
+        """Diameter of each needle, 0 of thin ones, [N] [L]."""
+        return self._numbers("diameter")
+
+    @property
+    def mass(self) -> np.ndarray:
+        """Mass of each needle, infinite of fixed ones, [N] [m]."""
+        return self._numbers("mass")
+
+    @property
+    def inertia(self) -> np.ndarray:
+        """Moment of inertia of each needle about axes normal to its director, [N] [m L^2]."""
+        return self._numbers("inertia")
+
+    def _numbers(self, name: str) -> np.ndarray:
+        return State({"species": self.species, "bodies": self._needles.bodies,
+                      **self._needles.own}).numbers(name)
+
+    @property
     def state(self) -> State:
         """All needles: the arrays position, velocity, orientation, angular_velocity, image, id and
-        species by name, and bodies, from which ``Simulation(scene, **state)`` starts."""
+        species by name, those of length, diameter, mass and inertia where bodies of a species
+        differ, and bodies. ``Simulation(scene, **state)`` starts from it."""
         flow = (self._slide[0], self._needles.shear_rate)
         return State.of((getattr(self, name) for name in ARRAYS), self._needles.bodies,
-                        flow if flow != (0, 0) else None)
+                        flow if flow != (0, 0) else None, self._needles.own)
 
     @property
     def _slide(self) -> tuple[float, int]:
@@ -206,6 +232,8 @@ def _bodies(group: h5py.Group) -> Bodies:
     if dataset("diameter") is None:
         known["diameter"] = np.zeros(len(known["length"]))
     masses = _get(group, "mass")
+    if isinstance(_get(group, "length"), h5py.Dataset):
+        masses = None  # each body has its own
     if dataset("mass") is None and isinstance(masses, h5py.Dataset) and len(masses.shape) == 1:
         species = _get(group, "species")
         indices = species[()] if isinstance(species, h5py.Dataset) else np.zeros(len(masses), int)
@@ -215,6 +243,24 @@ def _bodies(group: h5py.Group) -> Bodies:
             if all(len(each) == 1 for each in by_species):
                 known["mass"] = np.concatenate(by_species) if by_species else np.array([])
     return Bodies.of(known)
+
+
+def _own_numbers(path: str, group: h5py.Group, count: int) -> dict[str, np.ndarray]:
+    """The columns of OWN_NUMBERS where particles have a length, which they have where bodies of a
+    species differ."""
+    import h5py
+
+    columns = {}
+    for name in OWN_NUMBERS if isinstance(_get(group, "length"), h5py.Dataset) else ():
+        item = _get(group, name)
+        if not isinstance(item, h5py.Dataset):
+            continue
+        if item.dtype.kind not in "iuf" or item.shape != (count,):
+            raise InputError(f"{path}: {group.name}/{name}: type {item.dtype} and shape "
+                             f"{list(item.shape)}: expected a number for each needle, [{count}]")
+        columns[name] = item[()].astype(float)
+        columns[name].setflags(write=False)
+    return columns
 
 
 class Element:
@@ -316,6 +362,7 @@ class Needles:
         self.periodic = _periodic(group)
         self.shear_rate = float(np.ravel(_get(group, "box").attrs.get("shear_rate", 0))[0])
         self.bodies = _bodies(group)
+        self.own = _own_numbers(path, group, self.count)
         self.frames = self._count_frames(position)
         self._require_shapes()
         self.steps, self.times = self._steps_and_times(position)

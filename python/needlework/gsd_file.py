@@ -10,7 +10,7 @@ import numpy as np
 from . import _core
 from .errors import InputError, IoError
 from .reading import Recording, read
-from .state import Bodies, State
+from .state import OWN_NUMBERS, Bodies, State
 from .tilt import counted, reduced_tilt
 from .values import Values
 
@@ -39,7 +39,9 @@ def to_gsd(source: Union[Recording, str, os.PathLike, Any], path: str, frames: A
     turns (0, 0, 1) into the director, and its ``type_shapes`` are thin ellipsoids along that axis, so
     that OVITO draws needles; of rods of finite width they are meshes of cylinders with spherical
     caps, or spheres, and ``diameter`` is theirs. Length, diameter, mass and k of the types are
-    in ``log``, in double precision. The species of a mixture are its types. GSD has no
+    in ``log``, in double precision; where bodies of a type differ they are means, and length,
+    diameter, mass and inertia of each are in ``log["particles/length"]`` and so on. Masses of fixed
+    bodies are infinite. The species of a mixture are its types. GSD has no
     angular velocity: it is in ``log["particles/angular_velocity"]``, in double precision, and the
     time is in ``log["time"]``. HOOMD-blue's boxes are periodic; ``log["periodic"]`` has 0 for axes
     with walls. Along these a box encloses bodies beyond its edges, as above an open side:
@@ -99,8 +101,8 @@ def from_gsd(path: str, frame: int = -1) -> GsdFrame:
     and moment_inertia; the part along the director is left out. Types are species, of which mass
     and k = m L^2 / (2 I) follow from the particles, length and diameter from what to_gsd() writes or
     from type_shapes, Sphere or Ellipsoid. What follows from single precision is rounded to six
-    digits. A tilt xy is the slide of the state. Raises InputError for the tilts xz and yz, and for
-    particles of a type that differ. Needs python3-gsd.
+    digits. Particles of a type may differ in mass, moment of inertia and, as spheres, in diameter. A
+    tilt xy is the slide of the state. Raises InputError for the tilts xz and yz. Needs python3-gsd.
     """
     import gsd.hoomd
 
@@ -137,9 +139,10 @@ def from_gsd(path: str, frame: int = -1) -> GsdFrame:
               _turned(quaternion, np.array([0.0, 0.0, 1.0])), angular_velocity,
               counted(particles.image, slid), np.arange(particles.N, dtype=np.uint32),
               particles.typeid.astype(np.uint8))
+    bodies, own = _bodies_of(snapshot)
     return GsdFrame({
-        "state": State.of(arrays, _bodies_of(path, snapshot),
-                          (slide, rate) if (slide, rate) != (0, 0) else None), "box": box,
+        "state": State.of(arrays, bodies, (slide, rate) if (slide, rate) != (0, 0) else None, own),
+        "box": box,
         "periodic": np.asarray(log.get("periodic", np.ones(3))).astype(bool),
         "time": float(log["time"][0]) if "time" in log else float("nan"),
         "step": int(snapshot.configuration.step)})
@@ -165,37 +168,48 @@ def _angular_velocities(particles: Any, q: np.ndarray) -> np.ndarray:
     return _turned(q, spin)
 
 
-def _bodies_of(path: str, snapshot: Any) -> Bodies:
-    """What a frame says of its types; see from_gsd()."""
+def _bodies_of(snapshot: Any) -> tuple[Bodies, dict[str, np.ndarray]]:
+    """What a frame says of its types, and of particles of a type that differ; see from_gsd()."""
     particles, log = snapshot.particles, snapshot.log
     types = range(len(particles.types))
 
-    def common(name: str, values: np.ndarray) -> np.ndarray:
-        """The number of each type; none if there is a type without particles."""
-        found = [np.unique(values[particles.typeid == n]) for n in types]
-        for kind, numbers in zip(particles.types, found):
-            if len(numbers) > 1:
-                raise InputError(f"{path}: {name} from {numbers[0]} to {numbers[-1]} of the type "
-                                 f"{kind}: expected one, as those of a species are equal")
+    def differ(values: np.ndarray) -> bool:
+        return any(len(np.unique(values[particles.typeid == n])) > 1 for n in types)
+
+    def mean(values: np.ndarray) -> np.ndarray:
+        """Of each type; none if there is a type without particles."""
+        found = [values[particles.typeid == n].astype(float) for n in types]
         whole = all(len(numbers) for numbers in found)
-        return np.concatenate(found).astype(float) if whole else np.array([])
+        return np.array([np.mean(numbers) for numbers in found]) if whole else np.array([])
 
     known = {name: np.asarray(log[name], dtype=float)
              for name in ("length", "diameter", "mass", "k") if name in log}
+    own = {name: np.asarray(log[f"particles/{name}"], dtype=float) for name in OWN_NUMBERS
+           if f"particles/{name}" in log}
     sizes = [_size_of(shape) for shape in particles.type_shapes or []]
     if "length" not in known and len(sizes) == len(types) and None not in sizes:
         known["length"], known["diameter"] = (np.array(column) for column in zip(*sizes))
+    inertia = particles.moment_inertia[:, 0]
+    if not own and (differ(particles.mass) or differ(inertia)):
+        own = {"mass": _rounded(particles.mass)}
+        if np.all(inertia >= 0) and np.any(inertia > 0):
+            own["inertia"] = _rounded(inertia)
+    spheres = np.array([shape.get("type") == "Sphere" for shape in particles.type_shapes or []])
+    if "particles/diameter" not in log and np.any(spheres) and np.all(spheres) \
+            and differ(particles.diameter):
+        own |= {"length": np.zeros(particles.N), "diameter": _rounded(particles.diameter)}
     if "mass" not in known:
-        known["mass"] = _rounded(common("mass", particles.mass))
+        known["mass"] = _rounded(mean(particles.mass))
     if "k" not in known and len(known.get("length", ())) == len(known["mass"]) > 0:
-        inertia = common("moment_inertia", particles.moment_inertia[:, 0])
+        inertia = mean(inertia)
         if len(inertia) and np.all((inertia > 0) | (known["length"] == 0)):
             shape = known["mass"] * known["length"]**2
-            k = np.divide(shape, 2 * inertia, out=np.full_like(shape, 6.0), where=shape > 0)
-            known["k"] = _rounded(k)
+            turns = (shape > 0) & np.isfinite(inertia)
+            known["k"] = _rounded(np.divide(shape, 2 * inertia, out=np.full_like(shape, 6.0),
+                                            where=turns))
     if len(types) > 1:
         known["name"] = particles.types
-    return Bodies.of(known)
+    return Bodies.of(known), own
 
 
 def _size_of(shape: dict[str, Any]) -> tuple[float, float] | None:
@@ -232,15 +246,21 @@ def _snapshot(frame: Any, gas: Any, names: list[str]) -> Any:
     # One number, or one for each species of a mixture.
     lengths, masses, shapes = (np.atleast_1d(value) for value in (gas.length, gas.mass, gas.k))
     diameters = np.atleast_1d(gas.get("diameter", np.zeros_like(lengths)))
-    low, high = _bounds(frame, np.max(lengths + diameters) / 2)
-    flow = frame.state.get("flow")
+    species = frame.species if len(lengths) > 1 else np.zeros(count, dtype=np.uint8)
+    state = frame.state
+    own = [name for name in OWN_NUMBERS if name in state]
+    if own:
+        length, diameter, mass, inertia = (state.numbers(name) for name in OWN_NUMBERS)
+    else:
+        length, diameter, mass = (each[species] for each in (lengths, diameters, masses))
+        inertia = np.where(length > 0, mass, 0) * length**2 / (2 * shapes[species])
+    low, high = _bounds(frame, np.max(length + diameter, initial=0) / 2)
+    flow = state.get("flow")
     position, image, tilt = frame.position, frame.image, 0.0
     if flow:
         position, image, tilt = _in_tilted_cell(frame, flow["slide"])
     centre = (low + high + [tilt, 0, 0]) / 2
     snapshot.configuration.box = [*(high - low), tilt / frame.box[1], 0, 0]
-    inertia = masses * lengths**2 / (2 * shapes)
-    species = frame.species if len(lengths) > 1 else np.zeros(count, dtype=np.uint8)
     particles = snapshot.particles
     particles.N = count
     particles.types = names
@@ -251,15 +271,16 @@ def _snapshot(frame: Any, gas: Any, names: list[str]) -> Any:
     particles.image = image
     particles.velocity = frame.velocity
     particles.orientation = quaternions(frame.orientation)
-    particles.mass = masses[species]
-    particles.moment_inertia = np.stack([inertia, inertia, 0 * inertia], axis=1)[species]
-    particles.diameter = np.where(diameters > 0, diameters, lengths)[species]
+    particles.mass = mass
+    particles.moment_inertia = np.stack([inertia, inertia, np.zeros(count)], axis=1)
+    particles.diameter = np.where(diameter > 0, diameter, length)
     snapshot.log = {"particles/angular_velocity": np.asarray(frame.angular_velocity),
                     "time": np.array([frame.time]),
                     "length": lengths.astype(float), "diameter": diameters.astype(float),
                     "mass": masses.astype(float), "k": shapes.astype(float),
                     "periodic": frame.periodic.astype(np.uint8),
                     "edges": np.asarray(frame.box, dtype=float), "centre": centre}
+    snapshot.log |= {f"particles/{name}": np.asarray(state[name]) for name in own}
     snapshot.log |= {name: np.array([number]) for name, number in (flow or {}).items()}
     return snapshot
 

@@ -65,18 +65,21 @@ def temperature_ratio(source: Source, gas: Values | None = None,
     return _finished(axes, r"$T_{\rm tr} / T_{\rm rot}$")
 
 
-def needles(state: Any, axes: Axes | None = None, *, length: float = 1.0,
+def needles(state: Any, axes: Axes | None = None, *, length: float | None = None,
             most: int = 5000) -> Axes:
     """Needles as lines in three dimensions, coloured by speed.
 
-    ``state`` is a Simulation or a frame; ``most`` is how many needles are drawn, those with the
-    lowest ids, because Matplotlib is slow with many.
+    ``state`` is a Simulation or a frame; ``length`` that of all needles, each as long as it is
+    unless that is given; ``most`` is how many needles are drawn, those with the lowest ids, because
+    Matplotlib is slow with many.
     """
     import matplotlib.pyplot as plt
     from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
     axes = axes or plt.figure(figsize=(6, 6), layout="constrained").add_subplot(projection="3d")
-    centre, half = state.position[:most], 0.5 * length * state.orientation[:most]
+    own = np.nan_to_num(state.length, nan=1.0) if length is None else np.full(most, length)
+    centre = state.position[:most]
+    half = 0.5 * own[:len(centre), None] * state.orientation[:most]
     speed = np.linalg.norm(state.velocity[:most], axis=1)
     lines = Line3DCollection(np.stack([centre - half, centre + half], axis=1), cmap="plasma",
                              array=speed, linewidths=1)

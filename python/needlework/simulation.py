@@ -13,14 +13,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from .arrays import rows_of_vectors, whole_numbers
+from .arrays import column, rows_of_vectors, whole_numbers
 from .collisions import (COLLISION, COLLISION_WITH_STATES, HAPPENING,
                          HAPPENING_WITH_STATES)
 from .data import Data
 from .errors import Error, InputError
 from .progress import progress_line
 from .scene_text import SceneLike, scene_text
-from .state import NUMBERS_OF_BODIES, Bodies, State
+from .state import NUMBERS_OF_BODIES, OWN_NUMBERS, Bodies, State
 from .values import NotPickled, Values, html_table
 
 Callback = Callable[[np.ndarray], object]
@@ -250,8 +250,13 @@ class Simulation(NotPickled):
         scene, where given, must agree. If it is not given, ids go through the species in their
         order.
     bodies : mapping, optional
-        What the species are made of: length, diameter, mass and k of each, and name. It is taken
-        where the scene is silent; what the scene says otherwise is an error.
+        What the species are made of: length, diameter, mass and k of each, and name; mass is
+        infinite of fixed ones. It is taken where the scene is silent; what the scene says otherwise
+        is an error.
+    length, diameter, mass, inertia : arrays [N], optional
+        Numbers of each needle, where those of a species differ [L, L, m, m L^2]: lengths of axes,
+        diameters, masses, and moments of inertia about axes normal to the director. What is not
+        given follows from the scene.
     flow : mapping, optional
         What a sheared state says of its box: slide, of the row of boxes above [L], and shear_rate
         [1 / time]. Velocities beside the flow are kept where the scene has another rate.
@@ -290,7 +295,9 @@ class Simulation(NotPickled):
                  id: ArrayLike | None = None, species: ArrayLike | None = None,
                  bodies: Mapping[str, ArrayLike] | None = None, force: bool = False,
                  peculiar_velocity: ArrayLike | None = None,
-                 flow: Mapping[str, float] | None = None) -> None:
+                 flow: Mapping[str, float] | None = None, length: ArrayLike | None = None,
+                 diameter: ArrayLike | None = None, mass: ArrayLike | None = None,
+                 inertia: ArrayLike | None = None) -> None:
         text, name, has_lines = scene_text(scene)
         if velocity is not None and peculiar_velocity is not None:
             raise InputError("velocity and peculiar_velocity: expected one of them")
@@ -298,7 +305,7 @@ class Simulation(NotPickled):
         state = _state({"position": position,
                         "velocity": peculiar_velocity if beside_flow else velocity,
                         "orientation": orientation, "angular_velocity": angular_velocity},
-                       image, id, species, bodies)
+                       image, id, species, bodies, (length, diameter, mass, inertia))
         if state is not None:
             state = (*state, beside_flow, *_flow(flow or {}))
         self._run = _core.Run(text, os.fsencode(name), has_lines, state, bool(force))
@@ -501,10 +508,12 @@ class Simulation(NotPickled):
     @property
     def state(self) -> State:
         """All needles: the arrays position, velocity, orientation, angular_velocity, image, id and
-        species by name, from which ``Simulation(scene, **state)`` starts."""
+        species by name, and length, diameter, mass and inertia where bodies of a species differ.
+        ``Simulation(scene, **state)`` starts from it."""
         if self._copy is None:
-            self._copy = State.of(self._run.state(), Bodies.of(self._facts.bodies),
-                                  self._run.flow())
+            *arrays, own = self._run.state()
+            self._copy = State.of(arrays, Bodies.of(self._facts.bodies), self._run.flow(),
+                                  own and dict(zip(OWN_NUMBERS, own)))
         return self._copy
 
     @property
@@ -548,6 +557,26 @@ class Simulation(NotPickled):
     def species(self) -> np.ndarray:
         """Index of the species of each needle, from 0 in the order of the scene, [N]."""
         return self.state.species
+
+    @property
+    def length(self) -> np.ndarray:
+        """Length of the axis of each needle, [N] [L]."""
+        return self.state.numbers("length")
+
+    @property
+    def diameter(self) -> np.ndarray:
+        """Diameter of each needle, 0 of thin ones, [N] [L]."""
+        return self.state.numbers("diameter")
+
+    @property
+    def mass(self) -> np.ndarray:
+        """Mass of each needle, infinite of fixed ones, [N] [m]."""
+        return self.state.numbers("mass")
+
+    @property
+    def inertia(self) -> np.ndarray:
+        """Moment of inertia of each needle about axes normal to its director, [N] [m L^2]."""
+        return self.state.numbers("inertia")
 
     @property
     def time(self) -> float:
@@ -721,11 +750,11 @@ def _callback_of(simulation: Simulation, name: str) -> Callback:
 
 
 def _state(arrays: dict[str, ArrayLike | None], image: ArrayLike | None, ids: ArrayLike | None,
-           species: ArrayLike | None, bodies: Mapping[str, ArrayLike] | None
-           ) -> tuple[np.ndarray | tuple | None, ...] | None:
+           species: ArrayLike | None, bodies: Mapping[str, ArrayLike] | None,
+           own: tuple[ArrayLike | None, ...]) -> tuple[np.ndarray | tuple | None, ...] | None:
     """The arrays of an initial state, or None if there are none."""
     given = {name: values for name, values in arrays.items() if values is not None}
-    if not given and image is None and ids is None and species is None:
+    if not given and all(values is None for values in (image, ids, species, *own)):
         return None
     for name in ("position", "orientation"):
         if name not in given:
@@ -741,7 +770,9 @@ def _state(arrays: dict[str, ArrayLike | None], image: ArrayLike | None, ids: Ar
             whole_numbers("id", ids, (count,), 0, 2**32 - 1).astype(np.uint32),
             None if species is None else
             whole_numbers("species", species, (count,), 0, 254).astype(np.uint8),
-            _columns_of(bodies or {}))
+            _columns_of(bodies or {}),
+            tuple(None if values is None else column(name, values, count)
+                  for name, values in zip(OWN_NUMBERS, own)))
 
 
 def _flow(flow: Mapping[str, float]) -> tuple[float, float]:

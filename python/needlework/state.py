@@ -11,6 +11,8 @@ from .values import Table
 
 ARRAYS = ("position", "velocity", "orientation", "angular_velocity", "image", "id", "species")
 NUMBERS_OF_BODIES = ("length", "diameter", "mass", "k")
+OWN_NUMBERS = ("length", "diameter", "mass", "inertia")
+"""Arrays of a state whose bodies differ within a species."""
 
 
 class Bodies(Table):
@@ -24,7 +26,7 @@ class Bodies(Table):
     diameter: np.ndarray
     """Diameters, 0 of thin needles, [species] [L]."""
     mass: np.ndarray
-    """Masses, [species] [m]."""
+    """Masses, infinite of fixed bodies, [species] [m]."""
     k: np.ndarray
     """k = m L^2 / (2 I), [species]."""
 
@@ -53,25 +55,52 @@ class State(Table):
     species: np.ndarray
     """Index of the species of each needle, from 0 in the order of the scene, [N]."""
     bodies: Bodies
-    """What the species are made of, which another scene must not contradict."""
+    """What the species are made of, which another scene must not contradict; means where their
+    bodies differ."""
+    # Where bodies of a species differ:
+    length: np.ndarray
+    """Lengths of the axes, [N] [L]."""
+    diameter: np.ndarray
+    """Diameters, [N] [L]."""
+    mass: np.ndarray
+    """Masses, infinite of fixed needles, [N] [m]."""
+    inertia: np.ndarray
+    """Moments of inertia about axes normal to the director, 0 of spheres, [N] [m L^2]."""
 
     @classmethod
-    def of(cls, arrays: Iterable[np.ndarray], bodies: Bodies,
-           flow: Sequence[Any] | None = None) -> State:
-        """The state of these arrays, in the order of ARRAYS; `flow` under uniform shear: slide, rate."""
-        values = {**dict(zip(ARRAYS, arrays)), "bodies": bodies}
+    def of(cls, arrays: Iterable[np.ndarray], bodies: Bodies, flow: Sequence[Any] | None = None,
+           own: Mapping[str, np.ndarray] | None = None) -> State:
+        """The state of these arrays, in the order of ARRAYS; `flow` under uniform shear: slide, rate;
+        `own` where bodies of a species differ: arrays of OWN_NUMBERS."""
+        values = {**dict(zip(ARRAYS, arrays)), **(own or {}), "bodies": bodies}
         if flow is not None:
             values["flow"] = {"slide": flow[0], "shear_rate": flow[1]}
         return cls(values)
+
+    def numbers(self, name: str) -> np.ndarray:
+        """One of OWN_NUMBERS of each needle, its own or that of its species, [N]; not a number where
+        that is not known."""
+        if name in self._values:
+            return self._values[name]
+        bodies = self._values["bodies"]
+        if name != "inertia":
+            known = np.asarray(bodies.get(name, np.nan), dtype=float)
+        elif {"length", "mass", "k"} <= set(bodies):
+            turns = bodies["length"] > 0
+            shape = np.where(turns, bodies["mass"], 0) * bodies["length"]**2
+            known = np.divide(shape, 2 * bodies["k"], out=np.zeros_like(shape), where=turns)
+        else:
+            known = np.asarray(np.nan)
+        return np.broadcast_to(known, max(known.size, 1))[self._values["species"]]
 
     # The items are the arrays, one row for each needle. keys() names the bodies, too, so that
     # ``**state`` hands them over.
 
     def __iter__(self) -> Iterator[str]:
-        return iter(ARRAYS)
+        return iter([*ARRAYS, *(name for name in OWN_NUMBERS if name in self._values)])
 
     def __len__(self) -> int:
-        return len(ARRAYS)
+        return len(list(iter(self)))
 
     def keys(self) -> KeysView[str]:
         return self._values.keys()

@@ -35,7 +35,7 @@ void require_possible(const needlework_initial& initial, const Scene& scene) {
 }
 
 State state_of(const needlework_initial& initial, const int32_t* image, const uint8_t* species,
-               const std::array<double, 3>& box_of_scene) {
+               const needlework_bodies& bodies, const std::array<double, 3>& box_of_scene) {
   constexpr std::array<double, 3> not_given{};
   const std::size_t count = initial.count;
   State state;
@@ -56,6 +56,13 @@ State state_of(const needlework_initial& initial, const int32_t* image, const ui
   state.angular_velocity = rows_of(initial.angular_velocity, count);
   if (initial.id) state.id.assign(initial.id, initial.id + count);
   if (species) state.species.assign(species, species + count);
+  OwnBodies& own = state.own_bodies;
+  for (const auto& [numbers, column] : {std::pair(bodies.length, &own.length),
+                                        {bodies.diameter, &own.diameter},
+                                        {bodies.mass, &own.mass},
+                                        {bodies.inertia, &own.inertia}}) {
+    if (numbers) column->assign(numbers, numbers + count);
+  }
   if (image) {
     state.image.resize(count);
     for (std::size_t n = 0; n < count; ++n) std::copy_n(image + 3 * n, 3, state.image[n].begin());
@@ -116,12 +123,21 @@ needlework_simulation* needlework_create_with_species(const char* scene,
                                                       const needlework_initial* initial,
                                                       const int32_t* image, const uint8_t* species,
                                                       unsigned flags, needlework_error* error) {
+  return needlework_create_with_bodies(scene, initial, image, species, nullptr, flags, error);
+}
+
+needlework_simulation* needlework_create_with_bodies(const char* scene,
+                                                     const needlework_initial* initial,
+                                                     const int32_t* image, const uint8_t* species,
+                                                     const needlework_bodies* bodies,
+                                                     unsigned flags, needlework_error* error) {
   return c::create(flags, error, [&] {
     c::require(scene, "scene");
     c::require(initial, "initial");
     Scene parsed = parse_scene(scene, c::scene_name, {}, {.state = true, .end = true});
     c::require_possible(*initial, parsed);
-    State state = c::state_of(*initial, image, species, parsed.needles.box);
+    const needlework_bodies own = bodies ? *bodies : needlework_bodies{};
+    State state = c::state_of(*initial, image, species, own, parsed.needles.box);
     return runs::complete_scene(std::move(parsed), std::move(state));
   });
 }

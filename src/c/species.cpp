@@ -4,6 +4,7 @@
 
 #include "src/c/handle.h"
 #include "src/c/numbers.h"
+#include "src/runs/bodies_of_needles.h"
 #include "src/runs/rod_totals.h"
 
 using namespace needlework;
@@ -39,7 +40,7 @@ int needlework_get_species(needlework_simulation* simulation, size_t index,
     const SpeciesTotals totals = source.species_totals()[index];
     *species = {.count = totals.count,
                 .length = body.length,
-                .mass = body.mass,
+                .mass = body.mass_or_infinity(),
                 .k = body.k,
                 .t_tr = totals.t_tr,
                 .t_rot = totals.t_rot};
@@ -51,8 +52,9 @@ int needlework_get_species_shape(needlework_simulation* simulation, size_t index
   return c::guarded(simulation, [&](needlework_simulation& self) {
     const Composition& composition = self.run.simulation().composition();
     require_species(composition, "index", index);
-    if (diameter) *diameter = composition[index].diameter;
-    if (inertia) *inertia = composition[index].inertia();
+    const Species& body = composition[index];
+    if (diameter) *diameter = body.diameter;
+    if (inertia) *inertia = body.fixed && body.turns() ? body.mass_or_infinity() : body.inertia();
   });
 }
 
@@ -87,6 +89,19 @@ int needlework_species_meet(needlework_simulation* simulation, size_t first, siz
     require_species(composition, "first", first);
     require_species(composition, "second", second);
     *meet = composition.meets(first, second);
+  });
+}
+
+int needlework_get_bodies(needlework_simulation* simulation, double* length, double* diameter,
+                          double* mass, double* inertia) {
+  return c::guarded(simulation, [&](needlework_simulation& self) {
+    const OwnBodies bodies = runs::bodies_of_needles(self.run.simulation());
+    for (const auto& [column, into] : {std::pair(&bodies.length, length),
+                                       {&bodies.diameter, diameter},
+                                       {&bodies.mass, mass},
+                                       {&bodies.inertia, inertia}}) {
+      if (into) std::ranges::copy(*column, into);
+    }
   });
 }
 

@@ -121,14 +121,27 @@ Composition counted(const io::Configuration& read, const std::string& from) {
   return composition;
 }
 
-std::string species_text(const Composition& composition, bool is_length_known) {
+std::string species_text(const Composition& composition, const io::Configuration& read) {
+  const std::vector<bool> differ = io::which_differ(read.state, composition.size());
+  const bool is_length_known = !read.material.length.empty();
   std::string text;
-  for (const Species& each : composition.species()) {
-    text += fmt::format("[[species]]\nname = {}\ncount = {}\nlength = {}\nmass = {}\nk = {}\n",
-                        toml(printable(each.name)), each.count, each.length, each.mass, each.k);
-    // A state of unknown length says no diameter either.
-    const bool is_said = each.diameter > 0 || !is_length_known;
-    text += is_said ? fmt::format("diameter = {}\n\n", each.diameter) : "\n";
+  for (std::size_t n = 0; n < composition.size(); ++n) {
+    const Species& each = composition[n];
+    text +=
+        fmt::format("[[species]]\nname = {}\ncount = {}\n", toml(printable(each.name)), each.count);
+    if (differ[n]) {
+      text += "# each body has the length, diameter, mass and moment of inertia of the state\n";
+    } else {
+      text += fmt::format("length = {}\n", each.length);
+      if (!each.fixed) text += fmt::format("mass = {}\nk = {}\n", each.mass, each.k);
+      // A state of unknown length says no diameter either.
+      const bool is_said = each.diameter > 0 || !is_length_known;
+      if (is_said) text += fmt::format("diameter = {}\n", each.diameter);
+    }
+    if (each.fixed) text += "fixed = true\n";
+    if (each.fixed && composition.has_width())
+      text += "overlap = true  # not from the file: they are as they are\n";
+    text += '\n';
   }
   return text;
 }
@@ -148,7 +161,8 @@ std::string pairs_text(const Composition& composition) {
     for (std::size_t b = a; b < composition.size(); ++b) {
       const Restitution rule = composition.restitution(a, b);
       const bool meet = composition.meets(a, b);
-      if (meet && rule == first) continue;
+      const bool are_fixed = composition[a].fixed && composition[b].fixed;
+      if (are_fixed || (meet && rule == first)) continue;
       const std::string how =
           meet ? fmt::format("epsilon = {}\nbeta = {}", rule.epsilon, rule.beta) : "meet = false";
       text +=
@@ -223,10 +237,10 @@ file = {}
 collisions_per_needle = {}  # not from the file: choose an end
 )",
       toml(printable("Imported from " + fs::path(from).filename().string())),
-      fmt::join(read.state.box, ", "), species_text(composition, !read.material.length.empty()),
-      path_in_toml(state_file), rule_text(composition.restitution(0, 0), read.contact_time),
-      pairs_text(composition), walls_text(walls_of(read, from), read.material.gravity),
-      shear_text(read.state), assumed_collisions_per_needle);
+      fmt::join(read.state.box, ", "), species_text(composition, read), path_in_toml(state_file),
+      rule_text(composition.restitution(0, 0), read.contact_time), pairs_text(composition),
+      walls_text(walls_of(read, from), read.material.gravity), shear_text(read.state),
+      assumed_collisions_per_needle);
 }
 
 std::optional<std::size_t> frame_number(const std::string& frame) {
@@ -236,7 +250,11 @@ std::optional<std::size_t> frame_number(const std::string& frame) {
 
 io::Configuration read_configuration(const ImportArguments& arguments) {
   try {
-    return io::read_configuration(arguments.from, frame_number(arguments.frame));
+    io::Configuration read = io::read_configuration(arguments.from, frame_number(arguments.frame));
+    // As the state says it that is written.
+    if (!read.state.own_bodies.empty())
+      read.state.bodies = bodies_of(io::composition_of(read.material, arguments.from));
+    return read;
   } catch (const InputError& error) {
     throw InputError(printable(error.what()));
   }
@@ -244,7 +262,7 @@ io::Configuration read_configuration(const ImportArguments& arguments) {
 
 // Completes the scene with its state, so that a configuration that cannot be run is reported now,
 // not by `run`.
-Scene checked_scene(const std::string& text, const State& state, const std::string& from) {
+Scene checked_scene(const std::string& text, State state, const std::string& from) {
   try {
     Scene scene = parse_scene(text, "scene.toml");
     adopt_state(scene, state);
@@ -273,6 +291,7 @@ void write_state(const std::string& file, bool force, const Scene& scene,
   io::RunInfo run;
   run.isa = "none";  // nothing was computed
   run.species = state.species;
+  run.own_bodies = state.own_bodies;
   run.assumed = assumed_of_bodies(read.material);
   io::Writer writer(file, force, scene, run);
   writer.write_frame(runs::totals_of(state, scene), state);

@@ -272,19 +272,33 @@ struct Simulation::Implementation {
 
 namespace {
 
-// The scene of the bodies that a state has.
-Scene with_bodies_of(const State& initial, Scene scene) {
-  adopt_own_bodies(scene, initial);
-  return scene;
-}
+// A scene with a state from which it starts, and the bodies of the two.
+class SceneWithState {
+ public:
+  SceneWithState(const Scene& scene, const State& state) : scene_(scene), state_(state) {
+    if (lacks_numbers(scene, state)) {
+      completed_ = state;
+      completed_->own_bodies = all_numbers_of(scene, state);
+    }
+    adopt_own_bodies(scene_, this->state());
+  }
+
+  const Scene& scene() const { return scene_; }
+  const State& state() const { return completed_ ? *completed_ : state_; }
+
+ private:
+  Scene scene_;
+  const State& state_;
+  std::optional<State> completed_;
+};
 
 }  // namespace
 
 void require_simulable(const Scene& scene, const State& initial) {
   const kernels::DefaultArithmetic arithmetic;
   require_valid(scene, simulable);
-  const Scene its = with_bodies_of(initial, scene);
-  const Run run(its, make_gas(its, initial));
+  const SceneWithState both(scene, initial);
+  const Run run(both.scene(), make_gas(both.scene(), both.state()));
 }
 
 namespace {
@@ -368,8 +382,9 @@ Simulation::Simulation(const Scene& scene) {
 Simulation::Simulation(const Scene& scene, const State& initial) {
   const kernels::DefaultArithmetic arithmetic;
   require_valid(scene, simulable);
-  const Scene its = with_bodies_of(initial, scene);
-  implementation_ = std::make_unique<Implementation>(its, make_gas(its, initial));
+  const SceneWithState both(scene, initial);
+  implementation_ =
+      std::make_unique<Implementation>(both.scene(), make_gas(both.scene(), both.state()));
 }
 
 Simulation::Simulation(const Scene& scene, const Checkpoint& checkpoint) {

@@ -97,8 +97,7 @@ Bodies read_bodies(const Source& source) {
   bodies.diameter = read_numbers(source, "diameter");
   bodies.mass = read_numbers(source, "mass");
   bodies.k = read_numbers(source, "k");
-  const bool are_alike = !has_dataset(source, find_particles(source) + "/length");
-  if (!has_dataset(source, "/parameters/mass") && are_alike)
+  if (!has_dataset(source, "/parameters/mass") && !has_own_bodies(source))
     bodies.mass = masses_by_species(source);
   // There is a species of which the file has no particle.
   if (std::ranges::count(bodies.mass, 0) > 0) bodies.mass.clear();
@@ -107,29 +106,34 @@ Bodies read_bodies(const Source& source) {
   return bodies;
 }
 
+bool has_own_bodies(const Source& source) {
+  return has_dataset(source, find_particles(source) + "/length");
+}
+
 OwnBodies read_own_bodies(const Source& source, std::size_t needles) {
-  const std::string group = find_particles(source) + "/";
   OwnBodies out;
-  const auto has = [&](const std::string& name) {
-    return hdf5::exists(source.get(), group + name, source.place(group + name));
-  };
-  if (!has("length")) return out;
-  for (const auto& [name, column] : {std::pair("length", &out.length),
-                                     {"diameter", &out.diameter},
-                                     {"mass", &out.mass},
-                                     {"inertia", &out.inertia}}) {
-    if (!has(name)) continue;
-    *column = Element(source, group + name).read<double>({});
-    const std::string place = source.place(group + name);
-    if (column->size() != needles) {
+  if (!has_own_bodies(source)) return out;
+  const auto read = [&](const char* name, bool may_be_infinite, bool may_be_zero) {
+    const std::string path = find_particles(source) + "/" + name, place = source.place(path);
+    if (!has_dataset(source, path)) return std::vector<double>{};
+    std::vector<double> column = Element(source, path).read<double>({});
+    if (column.size() != needles) {
       throw InputError(fmt::format("{}: {} numbers: expected {}, one for each needle", place,
-                                   column->size(), needles));
+                                   column.size(), needles));
     }
-    for (const double value : *column) {
-      if (value >= 0) continue;
-      throw InputError(fmt::format("{} = {}: expected a number >= 0", place, value));
+    for (std::size_t i = 0; i < needles; ++i) {
+      const double value = column[i];
+      if ((value > 0 || (may_be_zero && value == 0)) && (may_be_infinite || std::isfinite(value)))
+        continue;
+      throw InputError(fmt::format("{}[{}] = {}: expected a {}number {} 0", place, i, value,
+                                   may_be_infinite ? "" : "finite ", may_be_zero ? ">=" : ">"));
     }
-  }
+    return column;
+  };
+  out.length = read("length", false, true);
+  out.diameter = read("diameter", false, true);
+  out.mass = read("mass", true, false);
+  out.inertia = read("inertia", true, true);
   return out;
 }
 

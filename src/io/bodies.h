@@ -15,8 +15,10 @@ namespace needlework::io {
 /// numbers that no body has.
 Bodies read_bodies(const Source& source);
 
-/// The numbers of each needle, where those of a species differ: the particles then have a length.
-/// Throws InputError for other than one number for each, or numbers that no body has.
+/// Whether each needle has numbers of its own: the particles then have a length.
+bool has_own_bodies(const Source& source);
+/// These numbers, none where those of a species are the same. Throws InputError for other than one
+/// number for each, or numbers that no body has.
 OwnBodies read_own_bodies(const Source& source, std::size_t needles);
 
 /// The mass of the particles of each species, 0 of a species without any; nothing if the file does

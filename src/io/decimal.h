@@ -20,4 +20,9 @@ inline std::errc read_decimal(std::string_view text, double& value) {
   return stop == end && std::isfinite(value) ? std::errc() : std::errc::invalid_argument;
 }
 
+/// Whether a text is infinity, as programs write it.
+inline bool is_infinite(std::string_view text) {
+  return text == "inf" || text == "Inf" || text == "INF" || text == "+inf" || text == "Infinity";
+}
+
 }  // namespace needlework::io

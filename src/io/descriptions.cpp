@@ -287,6 +287,14 @@ std::vector<Description> passing_descriptions() {
       {"/parameters/meet", "Whether each two species meet, 1 or 0", none, "[species][species]"}};
 }
 
+std::vector<Description> own_body_descriptions() {
+  const std::string each = "[needles]";
+  return {{"/particles/needles/length", "Length of the axis of each needle", length, each},
+          {"/particles/needles/diameter", "Diameter of each rod", length, each},
+          {"/particles/needles/inertia",
+           "Moment of inertia of each needle, about axes normal to it", "mass length^2", each}};
+}
+
 std::vector<Description> series_descriptions(const std::vector<SeriesGroup>& groups) {
   std::vector<Description> list;
   for (const SeriesGroup& group : groups) {

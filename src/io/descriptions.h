@@ -26,7 +26,8 @@ std::string sentence(const Description& description);
 
 std::vector<Description> run_file_descriptions();  ///< files of a Writer
 std::vector<Description> mixture_descriptions();
-std::vector<Description> passing_descriptions();  ///< where some species pass through each other
+std::vector<Description> passing_descriptions();   ///< where some species pass through each other
+std::vector<Description> own_body_descriptions();  ///< where bodies of a species differ
 std::vector<Description> rod_descriptions(bool of_each_species);  ///< of rods of finite width
 std::vector<Description> event_kind_descriptions();               ///< where events have kinds
 std::vector<Description> wall_descriptions();                     ///< where there are walls

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <span>
 
+#include "src/box/own_numbers.h"
 #include "src/io/column.h"
 #include "src/io/descriptions.h"
 #include "src/io/sums.h"
@@ -121,11 +122,10 @@ StepAndTime make_needles(hid_t group, const Scene& scene, std::vector<std::uint8
   for (std::size_t i = masses.size(); i < species.size(); ++i)
     masses.push_back(composition[species[i]].mass_or_infinity());
   hdf5::write_array<double>(group, "mass", {count}, masses, place);
-  for (const auto& [name, column] :
-       {std::pair("length", &own.length), {"diameter", &own.diameter}, {"inertia", &own.inertia}}) {
+  for (const auto& [name, column] : named_columns(own)) {
     const bool is_thin = column == &own.diameter && !composition.has_width();
-    if (!column->empty() && !is_thin)
-      hdf5::write_array<double>(group, name, {count}, *column, place);
+    if (column == &own.mass || column->empty() || is_thin) continue;
+    hdf5::write_array<double>(group, name, {count}, *column, place);
   }
   hdf5::write_array<std::uint8_t>(group, "species", {count}, species, place);
   return shared;
@@ -201,7 +201,8 @@ void make_species(hid_t parameters, const Composition& composition, const std::s
   if (composition.has_width()) {
     write_each("diameter", &Species::diameter);
     std::vector<double> inertias;
-    for (const Species& each : composition.species()) inertias.push_back(each.inertia());
+    for (const Species& each : composition.species())
+      inertias.push_back(each.fixed && each.turns() ? each.mass_or_infinity() : each.inertia());
     hdf5::write_array<double>(parameters, "inertia", {size}, inertias, place);
   }
   const auto write_pairs = [&](const char* name, double Restitution::*member) {
@@ -286,6 +287,7 @@ void make_layout(hid_t file, const Scene& scene, const RunInfo& run, const std::
   if (composition.has_width())
     write_descriptions(file, rod_descriptions(composition.is_mixture()), place);
   if (composition.is_mixture()) write_descriptions(file, mixture_descriptions(), place);
+  if (!run.own_bodies.empty()) write_descriptions(file, own_body_descriptions(), place);
   if (!composition.all_meet()) write_descriptions(file, passing_descriptions(), place);
   if (!scene.walls.empty()) write_descriptions(file, wall_descriptions(), place);
   if (scene.shear) write_descriptions(file, shear_descriptions(), place);

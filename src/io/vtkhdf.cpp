@@ -66,6 +66,20 @@ void write_cell_data(hid_t group, const State& state, const std::string& place) 
   write_vectors(group, "angular_velocity", state.angular_velocity, place);
 }
 
+// What ends of lines have in common.
+void write_point_data(hid_t root, const State& state, const std::vector<double>& diameters,
+                      const std::string& place) {
+  const OwnBodies& own = state.own_bodies;
+  if (diameters.empty() && own.empty()) return;
+  const Handle group = create_group(root, "PointData", place);
+  const auto write = [&](const char* name, const std::vector<double>& values) {
+    if (!values.empty()) write_array<double>(group.get(), name, {values.size()}, values, place);
+  };
+  if (!diameters.empty()) write("radius", radii_of_ends(state, diameters));
+  write("length", at_both_ends(own.length));
+  write("mass", at_both_ends(own.mass));
+}
+
 }  // namespace
 
 void write_vtkhdf(const std::string& path, bool force, const State& state,
@@ -85,11 +99,7 @@ void write_vtkhdf(const std::string& path, bool force, const State& state,
       hdf5::write_attribute(root.get(), "periodic", periodic, {3}, path);
     }
     write_lines(root.get(), state, lengths, path);
-    if (!diameters.empty()) {
-      const std::vector<double> radii = radii_of_ends(state, diameters);
-      write_array<double>(create_group(root.get(), "PointData", path).get(), "radius",
-                          {radii.size()}, radii, path);
-    }
+    write_point_data(root.get(), state, diameters, path);
     write_cell_data(create_group(root.get(), "CellData", path).get(), state, path);
   }
   write_descriptions(file.get(), vtkhdf_descriptions(), path);

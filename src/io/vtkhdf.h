@@ -9,10 +9,11 @@
 namespace needlework::io {
 
 /// Writes a state as a VTKHDF file of version 1.0. It contains an UnstructuredGrid with one
-/// VTK_LINE for each needle, from r - L u/2 to r + L u/2, where L is the length of its species, and
-/// with the cell data id, velocity, orientation and angular_velocity. Where there are diameters of
-/// the species, the point data `radius` makes a tube of each line. VTK 9.1, ParaView 5.10 and later
-/// versions can read it. ParaView recognises the format by the file extension .vtkhdf.
+/// VTK_LINE for each needle, from r - L u/2 to r + L u/2, where L is its length, and with the cell
+/// data id, velocity, orientation and angular_velocity. Where there are diameters of the species,
+/// the point data `radius` makes a tube of each line; where bodies of a species differ, there are
+/// the point data `length` and `mass`. VTK 9.1, ParaView 5.10 and later versions can read it.
+/// ParaView recognises the format by the file extension .vtkhdf.
 ///
 /// An existing file is replaced if `force` is true. The file appears under its name when it is
 /// complete. Throws IoError, "PATH: reason", if it cannot be written.

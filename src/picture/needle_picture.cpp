@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "src/box/box.h"
+#include "src/box/own_numbers.h"
 #include "src/box/tilt.h"
 #include "src/picture/needle_values.h"
 #include "src/picture/stroke_font.h"
@@ -46,11 +47,27 @@ std::string count_text(const State& state) {
   return state.size() == 1 ? "1 needle" : fmt::format("{} needles", state.size());
 }
 
+// Sizes of all needles or, where those of a species are alike, of the species.
+const std::vector<double>& sizes_of(const std::vector<double>& own,
+                                    const std::vector<double>& of_species) {
+  return own.empty() || of_species.empty() ? of_species : own;
+}
+
 // So far needles reach out of the region that their centres are in.
-double margin_of(const NeedlePicture& settings) {
-  const double axis = std::ranges::max(settings.lengths) / 2;
-  if (settings.diameters.empty()) return axis;
-  return axis + std::ranges::max(settings.diameters) / 2;
+double margin_of(const State& state, const NeedlePicture& settings) {
+  const auto largest = [](const std::vector<double>& sizes) {
+    return sizes.empty() ? 0 : std::ranges::max(sizes);
+  };
+  return (largest(sizes_of(state.own_bodies.length, settings.lengths)) +
+          largest(sizes_of(state.own_bodies.diameter, settings.diameters))) /
+         2;
+}
+
+// "1", or "0.5, 1" of several species, or "0.41 to 2.3" of needles that differ.
+std::string text_of_sizes(const std::vector<double>& own, const std::vector<double>& of_species) {
+  if (own.empty()) return fmt::format("{:g}", fmt::join(of_species, ", "));
+  const auto [least, greatest] = std::ranges::minmax(own);
+  return fmt::format("{:.3g} to {:.3g}", least, greatest);
 }
 
 class Painter {
@@ -64,7 +81,7 @@ class Painter {
         unit_(std::max(least_unit, std::min(settings.width, settings.height) / 832.0)),
         walls_(surfaces_of(settings.walls, state.box, settings.time)),
         region_(region_of(state, walls_)),
-        camera_(region_, margin_of(settings), settings.camera, frame()) {}
+        camera_(region_, margin_of(state, settings), settings.camera, frame()) {}
 
   Drawing drawing() {
     const NeedleValues values = values_of(settings_.colour, state_, settings_.dark);
@@ -169,8 +186,7 @@ class Painter {
   }
 
   void draw_needle(std::size_t i, const Seen& middle, Colour colour) {
-    const std::size_t species = state_.species.empty() ? 0 : state_.species[i];
-    const double length = settings_.lengths.at(species);
+    const double length = number_at(state_, i, &OwnBodies::length, settings_.lengths);
     const Vector centre = place_of(state_.position[i]);
     std::array<Vector, 2> ends{centre, centre};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -179,7 +195,9 @@ class Painter {
       ends[1][axis] += half;
     }
     // Nearness shows more in the thickness than perspective alone would make it.
-    const double diameter = settings_.diameters.empty() ? 0 : settings_.diameters.at(species);
+    const double diameter = settings_.diameters.empty()
+                                ? 0
+                                : number_at(state_, i, &OwnBodies::diameter, settings_.diameters);
     const bool has_width = diameter > 0;
     const double full = has_width ? diameter * middle.scale
                                   : thickness * length * middle.scale * (0.5 + middle.nearness);
@@ -227,16 +245,18 @@ class Painter {
   }
 
   void describe(const NeedleValues& values) {
+    const OwnBodies& own = state_.own_bodies;
     drawing_.title = count_text(state_);
-    drawing_.description = fmt::format(
-        "{} of {} {:g} in a {}box of {:g} by {:g} by {:g}", count_text(state_),
-        settings_.lengths.size() == 1 ? "length" : "lengths", fmt::join(settings_.lengths, ", "),
-        state_.periodic == std::array{true, true, true} ? "periodic " : "", state_.box[0],
-        state_.box[1], state_.box[2]);
+    drawing_.description =
+        fmt::format("{} of {} {} in a {}box of {:g} by {:g} by {:g}", count_text(state_),
+                    settings_.lengths.size() == 1 && own.length.empty() ? "length" : "lengths",
+                    text_of_sizes(own.length, settings_.lengths),
+                    state_.periodic == std::array{true, true, true} ? "periodic " : "",
+                    state_.box[0], state_.box[1], state_.box[2]);
     if (cell_.is_sheared()) drawing_.description += fmt::format(", tilted by {:g}", cell_.xy());
     if (!settings_.diameters.empty())
       drawing_.description +=
-          fmt::format(", of diameter {:g}", fmt::join(settings_.diameters, ", "));
+          fmt::format(", of diameter {}", text_of_sizes(own.diameter, settings_.diameters));
     std::vector<std::string> walled;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (!state_.periodic[axis]) walled.emplace_back(1, "xyz"[axis]);

@@ -17,10 +17,11 @@ struct NeedlePicture {
   std::string colour = "speed";   ///< one of quantities()
   bool dark = true;               ///< the ground
   CameraSettings camera;
-  std::vector<double> lengths = {1.0};  ///< of needles of each species [L]
-  std::vector<double> diameters;        ///< the same, of rods of finite width; none for needles [L]
-  std::optional<double> time;           ///< since the start of the scene, shown if it is known
-  std::vector<Scene::Wall> walls;       ///< each of one side, not of both
+  std::vector<double> lengths = {
+      1.0};                        ///< of needles of each species, where the state has none [L]
+  std::vector<double> diameters;   ///< the same, of rods of finite width; none for needles [L]
+  std::optional<double> time;      ///< since the start of the scene, shown if it is known
+  std::vector<Scene::Wall> walls;  ///< each of one side, not of both
 };
 
 /// The needles, whose centres are moved into the box along its periodic axes, and which are drawn

@@ -2,6 +2,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <array>
+#include <iterator>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -19,16 +21,18 @@ using namespace pybind11::literals;
 using OptionalNumber = std::optional<double>;
 
 /// Position, velocity, orientation and angular velocity, [N][3] each; images, [N][3], ids and
-/// species, [N], which may be absent; bodies; the velocities, if they are beside the flow of the
-/// scene; and the slide of rows of boxes and the rate of the state's flow.
+/// species, [N], which may be absent; bodies; columns of OwnBodies, which may be absent; the
+/// velocities, if they are beside the flow of the scene; and the slide of rows of boxes and the
+/// rate of the state's flow.
 using Images = std::optional<py::array_t<std::int32_t, py::array::c_style>>;
 using Ids = std::optional<py::array_t<std::uint32_t, py::array::c_style>>;
 using SpeciesIndices = std::optional<py::array_t<std::uint8_t, py::array::c_style>>;
 /// Names, length, diameter, mass and k of each species, empty where they are not known.
 using Numbers = std::vector<double>;
 using BodyColumns = std::tuple<std::vector<std::string>, Numbers, Numbers, Numbers, Numbers>;
-using Arrays = std::tuple<Rows, Rows, Rows, Rows, Images, Ids, SpeciesIndices, BodyColumns, bool,
-                          double, double>;
+using OwnColumns = std::array<std::optional<Column>, 4>;
+using Arrays = std::tuple<Rows, Rows, Rows, Rows, Images, Ids, SpeciesIndices, BodyColumns,
+                          OwnColumns, bool, double, double>;
 
 State state_of(const Arrays& arrays) {
   State state;
@@ -43,9 +47,15 @@ State state_of(const Arrays& arrays) {
   }
   auto& [names, length, diameter, mass, k] = state.bodies;
   std::tie(names, length, diameter, mass, k) = std::get<7>(arrays);
-  if (std::get<8>(arrays)) state.velocity.swap(state.peculiar_velocity);
-  state.slide = std::get<9>(arrays);
-  state.shear_rate = std::get<10>(arrays);
+  OwnBodies& own = state.own_bodies;
+  std::vector<double>* const columns[] = {&own.length, &own.diameter, &own.mass, &own.inertia};
+  for (std::size_t n = 0; n < std::size(columns); ++n) {
+    if (const auto& column = std::get<8>(arrays)[n])
+      columns[n]->assign(column->data(), column->data() + column->size());
+  }
+  if (std::get<9>(arrays)) state.velocity.swap(state.peculiar_velocity);
+  state.slide = std::get<10>(arrays);
+  state.shear_rate = std::get<11>(arrays);
   return state;
 }
 

@@ -93,7 +93,9 @@ void add_species(py::dict& out, const Composition& composition) {
   out["counts"] = read_only(counts);
   out["k"] = each(&Species::k);
   out["length"] = each(&Species::length);
-  out["mass"] = each(&Species::mass);
+  std::vector<double> masses;
+  for (const Species& one : composition.species()) masses.push_back(one.mass_or_infinity());
+  out["mass"] = read_only(masses);
   if (composition.has_width()) out["diameter"] = each(&Species::diameter);
   out["epsilon"] = pairs(&Restitution::epsilon);
   out["beta"] = pairs(&Restitution::beta);
@@ -269,9 +271,14 @@ py::tuple Run::state() {
     run_->simulation().copy(state);
     state.species.resize(state.size());  // of one species all are 0
   });
+  const OwnBodies& bodies = state.own_bodies;
+  py::object own = py::none();
+  if (!bodies.empty())
+    own = py::make_tuple(read_only(bodies.length), read_only(bodies.diameter),
+                         read_only(bodies.mass), read_only(bodies.inertia));
   return py::make_tuple(read_only(state.position), read_only(state.velocity),
                         read_only(state.orientation), read_only(state.angular_velocity),
-                        read_only(state.image), read_only(state.id), read_only(state.species));
+                        read_only(state.image), read_only(state.id), read_only(state.species), own);
 }
 
 namespace {

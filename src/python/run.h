@@ -59,7 +59,7 @@ class Run {
   void close();
 
   /// A copy of the present state: read-only arrays position, velocity, orientation,
-  /// angular_velocity, image, id and species.
+  /// angular_velocity, image, id and species, and those of OwnBodies or None.
   pybind11::tuple state();
   pybind11::dict totals();
   /// Pairs of a name and sums, in the order of the scene.

@@ -121,17 +121,21 @@ Json drawn_walls(std::span<const picture::WallSurface> walls) {
   return out;
 }
 
-// Adds the largest size as NAME and, of several species, that of each needle in units of it as
-// share_of_NAME. In a gas of spheres alone all lengths are 0, and so are the shares.
-void add_sizes(Json& out, const std::string& name, const std::vector<double>& sizes,
-               const State& state, std::span<const std::size_t> chosen, Arrays& arrays) {
+// Adds the largest size as NAME and, of needles that differ or of several species, that of each
+// needle in units of it as share_of_NAME. In a gas of spheres alone all lengths are 0, and so are
+// the shares.
+void add_sizes(Json& out, const std::string& name, std::vector<double> OwnBodies::*own,
+               const std::vector<double>& of_species, const State& state,
+               std::span<const std::size_t> chosen, Arrays& arrays) {
+  const std::vector<double>& rows = state.own_bodies.*own;
+  const std::vector<double>& sizes = rows.empty() ? of_species : rows;
   const double largest = sizes.empty() ? 1 : std::ranges::max(sizes);
   out[name] = largest;
   if (sizes.size() <= 1) return;
   std::vector<float> shares;
   for (const std::size_t i : chosen) {
     const std::size_t species = i < state.species.size() ? state.species[i] : 0;
-    const double size = sizes[std::min(species, sizes.size() - 1)];
+    const double size = rows.empty() ? sizes[std::min(species, sizes.size() - 1)] : rows[i];
     shares.push_back(largest > 0 ? static_cast<float>(size / largest) : 0);
   }
   out["share_of_" + name] = arrays.add(std::span<const float>(shares), {shares.size()});
@@ -156,8 +160,9 @@ Json frames_of(const std::string& path, const BodySizes& sizes, std::span<const 
               {"needles_shown", chosen.size()},
               {"frames_in_file", file.count()},
               {"frames", Json::array()}};
-  add_sizes(out, "length", sizes.lengths, first, chosen, arrays);
-  if (!sizes.diameters.empty()) add_sizes(out, "diameter", sizes.diameters, first, chosen, arrays);
+  add_sizes(out, "length", &OwnBodies::length, sizes.lengths, first, chosen, arrays);
+  if (!sizes.diameters.empty())
+    add_sizes(out, "diameter", &OwnBodies::diameter, sizes.diameters, first, chosen, arrays);
   // From the last to the first, as each shows what those after it need: a film narrows as a layer
   // settles, and does not follow each needle that flies up.
   std::optional<picture::Region> later;

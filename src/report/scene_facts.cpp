@@ -48,6 +48,8 @@ Json species_of(const Composition& composition) {
   for (const Species& each : composition.species()) {
     out.push_back({{"name", each.name},
                    {"count", each.count},
+                   {"fixed", each.fixed},
+                   {"differ", each.sizes.has_value()},
                    {"length", each.length},
                    {"diameter", each.diameter},
                    {"mass", each.mass},
@@ -64,6 +66,7 @@ Json pairs_of(const Composition& composition, const Restitution& usual) {
   for (std::size_t a = 0; a < composition.size(); ++a) {
     for (std::size_t b = a; b < composition.size(); ++b) {
       const Restitution& rule = composition.restitution(a, b);
+      if (composition[a].fixed && composition[b].fixed) continue;
       if (!composition.meets(a, b)) {
         out.push_back({{"name", pair_name(composition, a, b)}, {"meet", false}});
         continue;
@@ -125,6 +128,7 @@ Json scene_facts(const Scene& scene) {
   return {{"species", one ? Json::array() : species_of(composition)},
           {"pairs", pairs_of(composition, {scene.collisions.epsilon, scene.collisions.beta})},
           {"k", of_one(needle.k)},
+          {"differ", one && needle.sizes.has_value()},
           {"length", one ? needle.length : composition.longest()},
           {"diameter", of_one(needle.diameter)},
           {"packing_fraction",

@@ -14,6 +14,7 @@
 #include "src/runs/estimates.h"
 #include "src/scene/adopt_state.h"
 #include "src/scene/check.h"
+#include "src/scene/own_bodies.h"
 
 namespace needlework::runs {
 namespace {
@@ -95,23 +96,48 @@ std::vector<std::array<double, 3>> peculiar_velocities(const State& state, const
   return out;
 }
 
+namespace {
+
+// The bodies of a state, with their species.
+class BodiesOfState {
+ public:
+  BodiesOfState(const State& state, const Composition& composition)
+      : composition_(composition),
+        species_(composition.in_order_of_id(state.species)),
+        own_(own_bodies_of(composition, state)) {}
+
+  std::size_t species_of(std::size_t i) const {
+    return composition_.is_mixture() ? species_.at(i) : 0;
+  }
+  BodyNumbers body(std::size_t i) const {
+    return own_.empty() ? numbers_of(composition_[species_of(i)]) : own_[i];
+  }
+
+ private:
+  const Composition& composition_;
+  std::vector<SpeciesIndex> species_;
+  std::vector<BodyNumbers> own_;
+};
+
+}  // namespace
+
 Totals totals_of(const State& state, const Scene& scene) {
   const Composition composition = scene.composition();
-  const std::vector<SpeciesIndex> indices = composition.in_order_of_id(state.species);
+  const BodiesOfState bodies(state, composition);
   Totals totals;
-  const double count = static_cast<double>(state.size());
+  const double count = static_cast<double>(state.size() - composition.fixed());
   const std::array<double, 3>& gravity = scene.forces.gravity;
   const std::array<bool, 3> periodic = scene.periodic();
   double fall = 0;  // potential energy
   for (std::size_t i = 0; i < state.size(); ++i) {
-    const Species& species = composition[composition.is_mixture() ? indices.at(i) : 0];
-    const double inertia = species.inertia();
+    if (composition[bodies.species_of(i)].fixed) continue;
+    const BodyNumbers body = bodies.body(i);
     const std::array<double, 3> velocity = velocity_of(state, scene, i);
-    totals.t_tr += species.mass * square(velocity) / (3 * count);
-    totals.t_rot += inertia * square(state.angular_velocity[i]) / (2 * count);
+    totals.t_tr += body.mass * square(velocity) / (3 * count);
+    totals.t_rot += body.inertia * square(state.angular_velocity[i]) / (2 * count);
     for (int axis = 0; axis < 3; ++axis) {
-      totals.momentum[axis] += species.mass * velocity[axis];
-      if (!periodic[axis]) fall -= species.mass * gravity[axis] * state.position[i][axis];
+      totals.momentum[axis] += body.mass * velocity[axis];
+      if (!periodic[axis]) fall -= body.mass * gravity[axis] * state.position[i][axis];
     }
   }
   const double turning = composition.turning_share();
@@ -141,13 +167,14 @@ std::vector<theory::Temperatures> temperatures_by_species(const LoadedScene& loa
   }
   out.assign(composition.size(), {0, 0});
   const State& state = *loaded.initial;
-  const std::vector<SpeciesIndex> indices = composition.in_order_of_id(state.species);
+  const BodiesOfState bodies(state, composition);
   for (std::size_t i = 0; i < state.size(); ++i) {
-    const std::size_t index = composition.is_mixture() ? indices.at(i) : 0;
-    const Species& species = composition[index];
-    const double count = static_cast<double>(species.count);
-    out[index].t_tr += species.mass * square(velocity_of(state, loaded.scene, i)) / (3 * count);
-    out[index].t_rot += species.inertia() * square(state.angular_velocity[i]) / (2 * count);
+    const std::size_t index = bodies.species_of(i);
+    if (composition[index].fixed) continue;
+    const BodyNumbers body = bodies.body(i);
+    const double count = static_cast<double>(composition[index].count);
+    out[index].t_tr += body.mass * square(velocity_of(state, loaded.scene, i)) / (3 * count);
+    out[index].t_rot += body.inertia * square(state.angular_velocity[i]) / (2 * count);
   }
   return out;
 }

@@ -80,13 +80,15 @@ double k_of(const Scene& scene, const Species& body, std::size_t n, const Bodies
   return is_k_said || body.diameter == 0 ? body.k : homogeneous_k(body.length, body.diameter);
 }
 
-// Whether bodies are fixed, which files say by an infinite mass.
+// Whether bodies are fixed, which files say by an infinite mass. Where the scene is silent, they
+// may overlap each other, as they are where they are.
 bool adopt_fixed(const Scene& scene, Species& body, std::size_t n, bool expected) {
   if (!scene.species.empty() && body.fixed != expected) {
     refuse(scene, place_of(scene, key_of_entry("species.fixed", n), body.fixed ? "true" : "false"),
            expected ? "true" : "false");
   }
   body.fixed = expected;
+  if (scene.species.empty()) body.overlap = expected;
   return expected;
 }
 
@@ -107,6 +109,22 @@ Species completed(const Scene& scene, Species body, std::size_t n, const Bodies&
   if (body.turns()) body.k = k_of(scene, body, n, bodies);
   body.given_inertia.reset();
   return body;
+}
+
+// Of what a state says whose bodies are alike.
+void require_nothing_drawn(const Scene& scene, const Bodies& bodies) {
+  for (std::size_t n = 0; n < scene.species.size(); ++n) {
+    for (const auto& [key, known, value] : dimensions) {
+      const std::vector<double>& numbers = bodies.*known;
+      const auto its =
+          std::ranges::find(drawn_quantities, std::string_view(key), &DrawnQuantity::name);
+      const auto& distribution = scene.species[n].drawn.*its->member;
+      if (n >= numbers.size() || !distribution) continue;
+      const std::string name = key_of_entry(fmt::format("species.{}", its->keys[0]), n);
+      refuse(scene, place_of(scene, name, name_of(distribution->shape)),
+             fmt::to_string(numbers[n]));
+    }
+  }
 }
 
 void require_one_number_a_species(const Scene& scene, const Bodies& bodies) {
@@ -216,10 +234,12 @@ void adopt_bodies(Scene& scene, const Bodies& bodies) {
   }
 }
 
-void adopt_state(Scene& scene, const State& state) {
+void adopt_state(Scene& scene, State& state) {
+  if (state.own_bodies.empty()) require_nothing_drawn(scene, state.bodies);
   adopt_bodies(scene, state.bodies);
   require_rules(scene, Aspect::species | Aspect::bodies | Aspect::pairs | Aspect::effects);
   adopt_count_and_box(scene, state);
+  if (lacks_numbers(scene, state)) state.own_bodies = all_numbers_of(scene, state);
   adopt_own_bodies(scene, state);
   if (scene.places.contains("needles.box")) require_rules(scene, Aspect::room);
 }

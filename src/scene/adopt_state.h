@@ -13,8 +13,9 @@ namespace needlework {
 /// empty, with its count, box and bodies. What the scene says itself must agree, numbers to a
 /// relative 1e-12; otherwise throws InputError: "PLACE: expected ..., as in FILE". So it does for
 /// bodies that the rest of the scene is not made for, see require_rules(). A count that the scene
-/// does not give is attributed to the file in later messages.
-void adopt_state(Scene& scene, const State& state);
+/// does not give is attributed to the file in later messages. Of bodies that differ, the state gets
+/// the numbers that it lacks: see all_numbers_of().
+void adopt_state(Scene& scene, State& state);
 /// The part of it that is about the count, so that it can be asked before the state is read. Fills
 /// in nothing.
 void require_count(const Scene& scene, std::size_t count);

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <mutex>
 #include <numeric>
-#include <tuple>
 
 #include "needlework/error.h"
+#include "src/box/own_numbers.h"
 #include "src/machine/stop_request.h"
 #include "src/random/needle_random.h"
 #include "src/scene/sections/sections.h"
@@ -20,11 +20,17 @@ std::uint32_t id_of_row(const State& state, std::size_t row) {
   return state.id.empty() ? static_cast<std::uint32_t>(row) : state.id[row];
 }
 
+// The rows in the order of ids.
+std::vector<std::size_t> rows_by_id(const State& state) {
+  std::vector<std::size_t> rows(state.size());
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  if (!state.id.empty())
+    std::ranges::sort(rows, {}, [&](std::size_t row) { return state.id[row]; });
+  return rows;
+}
+
 void require_numbers(const OwnBodies& bodies, std::size_t count) {
-  for (const auto& [what, column] : {std::pair("length", &bodies.length),
-                                     {"diameter", &bodies.diameter},
-                                     {"mass", &bodies.mass},
-                                     {"inertia", &bodies.inertia}}) {
+  for (const auto& [what, column] : named_columns(bodies)) {
     if (column->empty() || column->size() == count) continue;
     throw InputError(fmt::format("state: {} rows of {}: expected {}", column->size(), what, count));
   }
@@ -39,6 +45,9 @@ std::optional<WrongBody> wrong_number_of(const BodyNumbers& body) {
   if (!lengths.holds(body.length)) return WrongBody{0, "length", body.length, range_of(lengths)};
   if (!lengths.holds(body.diameter))
     return WrongBody{0, "diameter", body.diameter, range_of(lengths)};
+  if (body.length == 0 && body.diameter == 0)
+    return WrongBody{0, "length", body.length,
+                     "one above 0, or a diameter, which makes it a sphere"};
   if (!masses.holds(body.mass)) return WrongBody{0, "mass", body.mass, range_of(masses)};
   if (body.length == 0) return {};
   const double k = body.mass * (body.length * body.length) / (2 * body.inertia);
@@ -66,26 +75,6 @@ void require_in_range(const State& state, std::size_t row, const BodyNumbers& bo
   compare("diameter", body.diameter, usual.diameter);
 }
 
-BodyNumbers body_of_row(const OwnBodies& own, std::size_t row, const Species& species) {
-  BodyNumbers out = numbers_of(species);
-  const auto take = [&](double& to, const std::vector<double>& column) {
-    if (!column.empty()) to = column[row];
-  };
-  take(out.length, own.length);
-  take(out.diameter, own.diameter);
-  take(out.mass, own.mass);
-  if (!species.given_inertia && out.length > 0)
-    out.inertia = out.mass * (out.length * out.length) / (2 * species.k);
-  take(out.inertia, own.inertia);
-  if (species.fixed) {
-    // Whatever moves it: files have an infinite one.
-    if (std::isinf(out.mass)) out.mass = species.mass;
-    out.inertia = out.mass * (out.length * out.length) / (2 * species.k);
-  }
-  if (out.length == 0) out.inertia = 0;
-  return out;
-}
-
 // Makes the bodies of a species by seed and id.
 class BodyMaker {
  public:
@@ -100,19 +89,34 @@ class BodyMaker {
     }
   }
 
+  // What is known of a body otherwise.
+  struct Given {
+    std::optional<double> length = {}, diameter = {}, mass = {}, inertia = {};
+  };
+
   // Whether all bodies are alike.
   bool is_one() const {
     return std::ranges::none_of(quantiles_, [](const auto& each) { return each.has_value(); });
   }
-  BodyNumbers body(std::uint64_t id) const {
+  BodyNumbers body(std::uint64_t id) const { return body(id, Given{}); }
+  BodyNumbers body(std::uint64_t id, const Given& given) const {
     BodyNumbers out;
-    out.length = drawn(0, id).value_or(species_.length);
-    out.diameter = species_.drawn.aspect ? out.length / *species_.drawn.aspect
-                                         : drawn(1, id).value_or(species_.diameter);
-    out.mass = species_.drawn.density ? *species_.drawn.density * substance(out)
-                                      : drawn(2, id).value_or(species_.mass);
+    const auto first_of = [](const std::optional<double>& given_number,
+                             const std::optional<double>& drawn_number, double otherwise) {
+      return given_number ? *given_number : drawn_number.value_or(otherwise);
+    };
+    out.length = first_of(given.length, drawn(0, id), species_.length);
+    out.diameter = first_of(
+        given.diameter, species_.drawn.aspect ? out.length / *species_.drawn.aspect : drawn(1, id),
+        species_.diameter);
+    out.mass =
+        first_of(given.mass,
+                 species_.drawn.density ? *species_.drawn.density * substance(out) : drawn(2, id),
+                 species_.mass);
     if (!(out.length > 0)) {
       out.inertia = 0;
+    } else if (given.inertia) {
+      out.inertia = *given.inertia;
     } else if (const auto inertia = drawn(4, id); inertia || species_.given_inertia) {
       out.inertia = inertia ? *inertia : *species_.given_inertia;
     } else {
@@ -133,9 +137,8 @@ class BodyMaker {
   }
   double k_of(const BodyNumbers& body, std::uint64_t id) const {
     if (const auto k = drawn(3, id)) return *k;
-    return species_.drawn.homogeneous && body.diameter > 0
-               ? homogeneous_k(body.length, body.diameter)
-               : species_.k;
+    const bool is_homogeneous = species_.drawn.homogeneous && body.diameter > 0;
+    return is_homogeneous ? homogeneous_k(body.length, body.diameter) : species_.k;
   }
   // What a density counts: the length of a needle, the volume of others.
   static double substance(const BodyNumbers& body) {
@@ -196,18 +199,122 @@ BodyNumbers numbers_of(const Species& species) {
   return {species.length, species.diameter, species.mass, species.inertia()};
 }
 
+namespace {
+
+// The species of the needle in each row.
+std::vector<SpeciesIndex> species_of_rows(const Composition& composition, const State& state) {
+  std::vector<SpeciesIndex> by_id = composition.in_order_of_id(state.species);
+  const bool is_by_row = !state.species.empty() || state.id.empty();
+  if (is_by_row || by_id.size() != state.size()) return by_id;
+  std::vector<SpeciesIndex> out(state.size());
+  const std::vector<std::size_t> rows = rows_by_id(state);
+  for (std::size_t n = 0; n < rows.size(); ++n) out[rows[n]] = by_id[n];
+  return out;
+}
+
+// The numbers of a row. Those of fixed bodies move nothing; files have infinite ones.
+BodyNumbers body_of_row(const OwnBodies& own, std::size_t row, const Species& species) {
+  BodyNumbers out = numbers_of(species);
+  const auto take = [&](double& to, const std::vector<double>& column) {
+    if (!column.empty()) to = column[row];
+  };
+  take(out.length, own.length);
+  take(out.diameter, own.diameter);
+  take(out.mass, own.mass);
+  take(out.inertia, own.inertia);
+  if (species.fixed) {
+    if (std::isinf(out.mass)) out.mass = species.mass;
+    out.inertia = out.mass * (out.length * out.length) / (2 * species.k);
+  }
+  if (out.length == 0) out.inertia = 0;
+  return out;
+}
+
+// Whether the scene says the moments of inertia of a species, by k or by themselves.
+bool says_inertia(const Scene& scene, std::size_t n) {
+  if (scene.species.empty())
+    return scene.text.empty() ? scene.needles.k != Species{}.k : scene.places.contains("needles.k");
+  const Species& its = scene.species[n];
+  if (its.given_inertia || its.drawn.k || its.drawn.inertia) return true;
+  if (scene.text.empty()) return its.k != Species{}.k && !its.drawn.homogeneous;
+  return scene.places.contains(key_of_entry("species.k", n));
+}
+
+// The species as the scene has them, before means are taken.
+std::vector<Species> species_to_draw(const Scene& scene, const OwnBodies& own) {
+  std::vector<Species> out = scene.species.empty() ? scene.composition().species() : scene.species;
+  for (std::size_t n = 0; n < out.size(); ++n) {
+    const bool are_shaped = !own.diameter.empty() && own.inertia.empty();
+    if (are_shaped && !says_inertia(scene, n)) out[n].drawn.homogeneous = true;
+  }
+  return out;
+}
+
+bool is_complete(const OwnBodies& own) {
+  return std::ranges::none_of(named_columns(own),
+                              [](const auto& column) { return column.second->empty(); });
+}
+
+bool draws(const Scene& scene, const State& state) {
+  return state.own_bodies.empty() && state.size() > 0 &&
+         std::ranges::any_of(
+             scene.species,
+             [](const Species& its) { return its.drawn != DrawnSizes{} && !its.sizes; }) &&
+         scene.composition().has_own_sizes();
+}
+
+}  // namespace
+
+bool lacks_numbers(const Scene& scene, const State& state) {
+  return state.own_bodies.empty() ? draws(scene, state) : !is_complete(state.own_bodies);
+}
+
+OwnBodies all_numbers_of(const Scene& scene, const State& state) {
+  const OwnBodies& own = state.own_bodies;
+  if (!lacks_numbers(scene, state)) return own;
+  require_numbers(own, state.size());
+  const Composition composition = scene.composition();
+  const std::vector<SpeciesIndex> species = species_of_rows(composition, state);
+  if (composition.size() > 1 && species.size() != state.size()) return own;  // refused elsewhere
+  std::vector<BodyMaker> makers;
+  for (const Species& each : species_to_draw(scene, own))
+    makers.emplace_back(each, scene.needles.seed);
+  OwnBodies out;
+  for (std::size_t row = 0; row < state.size(); ++row) {
+    StopRequest::check_in_turn(row);
+    const std::size_t its = composition.size() > 1 ? species[row] : 0;
+    const auto given = [row](const std::vector<double>& column) {
+      return column.empty() ? std::nullopt : std::optional(column[row]);
+    };
+    const BodyNumbers body = makers.at(its).body(
+        id_of_row(state, row),
+        {given(own.length), given(own.diameter), given(own.mass), given(own.inertia)});
+    out.length.push_back(body.length);
+    out.diameter.push_back(body.diameter);
+    out.mass.push_back(body.mass);
+    out.inertia.push_back(body.inertia);
+  }
+  return out;
+}
+
 std::vector<BodyNumbers> own_bodies_of(const Composition& composition, const State& state) {
   std::vector<BodyNumbers> out;
-  if (state.own_bodies.empty()) return out;
+  if (state.own_bodies.empty()) {
+    if (state.size() == 0 || !composition.has_own_sizes()) return out;
+    throw InputError(
+        "state: no numbers of its bodies: expected length, mass and moment of inertia of each, as "
+        "bodies of a species differ");
+  }
   require_numbers(state.own_bodies, state.size());
-  const std::vector<SpeciesIndex> species = composition.in_order_of_id(state.species);
+  const std::vector<SpeciesIndex> species = species_of_rows(composition, state);
   if (species.size() != state.size() && composition.size() > 1) return out;  // refused elsewhere
-  std::vector<const BodyNumbers*> usual(composition.size());
+  std::vector<std::optional<BodyNumbers>> usual(composition.size());
   out.reserve(state.size());
   for (std::size_t row = 0; row < state.size(); ++row) {
     const std::size_t its = composition.size() > 1 ? species[row] : 0;
+    if (its >= composition.size()) return {};  // refused elsewhere
     out.push_back(body_of_row(state.own_bodies, row, composition[its]));
-    if (!usual[its]) usual[its] = &out.back();
+    if (!usual[its]) usual[its] = out.back();
     require_in_range(state, row, out.back(), *usual[its]);
   }
   return out;
@@ -284,15 +391,13 @@ OwnBodies columns_of(const std::vector<BodyNumbers>& bodies) {
 }
 
 void adopt_own_bodies(Scene& scene, const State& state) {
+  if (state.own_bodies.empty()) return;
   const Composition composition = scene.composition();
   const std::vector<BodyNumbers> bodies = own_bodies_of(composition, state);
   if (bodies.empty()) return;
-  const std::vector<SpeciesIndex> species = composition.in_order_of_id(state.species);
-  std::vector<std::size_t> rows(state.size());
-  std::iota(rows.begin(), rows.end(), std::size_t{0});
-  std::ranges::sort(rows, {}, [&](std::size_t row) { return id_of_row(state, row); });
+  const std::vector<SpeciesIndex> species = species_of_rows(composition, state);
   std::vector<SizesOfBodies> sizes(composition.size());
-  for (const std::size_t row : rows)
+  for (const std::size_t row : rows_by_id(state))
     sizes[composition.size() > 1 ? species[row] : 0].add(bodies[row]);
   if (scene.species.empty()) scene.species = composition.species();
   for (std::size_t n = 0; n < sizes.size(); ++n) {

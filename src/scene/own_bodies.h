@@ -17,9 +17,16 @@ namespace needlework {
 /// Those of a body that is as its species says.
 BodyNumbers numbers_of(const Species& species);
 
-/// The bodies of all rows of a state, completed by what the scene says of their species; empty
-/// where no row has numbers of its own. Throws InputError for numbers out of range, and for species
-/// in which some bodies turn, or have width, and others do not.
+/// Whether the rows of a state lack numbers that the scene draws, or some of those of which others
+/// are given.
+bool lacks_numbers(const Scene& scene, const State& state);
+/// The columns of a state with these numbers: of each row those that it has, then those that the
+/// scene draws for its id or says of its species. Throws InputError for a wrong number of rows.
+OwnBodies all_numbers_of(const Scene& scene, const State& state);
+
+/// The bodies of all rows of a state that lacks no numbers; empty where those of a species are
+/// alike. Throws InputError for numbers out of range, and for species in which some bodies turn, or
+/// have width, and others do not.
 std::vector<BodyNumbers> own_bodies_of(const Composition& composition, const State& state);
 
 /// A number of bodies that may be drawn, with the keys of its distribution.

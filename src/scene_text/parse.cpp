@@ -162,11 +162,12 @@ void adopt_shapes(Scene& scene, const std::set<std::string>& given) {
     scene.needles.k = homogeneous_k(1, scene.needles.diameter);
   for (std::size_t n = 0; n < scene.species.size(); ++n) {
     Species& species = scene.species[n];
-    const bool is_rod = species.diameter > 0 && species.turns();
-    if (!given.contains(key_of_entry("species.k", n)) && !species.given_inertia &&
-        species.drawn != DrawnSizes{})
-      species.drawn.homogeneous = true;
-    else if (is_rod && !given.contains(key_of_entry("species.k", n)) && !species.given_inertia)
+    const bool is_said = given.contains(key_of_entry("species.k", n)) || species.given_inertia ||
+                         species.drawn.k || species.drawn.inertia;
+    if (is_said) continue;
+    species.drawn.homogeneous = species.drawn != DrawnSizes{};
+    if (species.drawn.homogeneous) continue;
+    if (species.diameter > 0 && species.turns())
       species.k = homogeneous_k(species.length, species.diameter);
   }
 }
@@ -177,6 +178,7 @@ void adopt_species(Scene& scene, bool is_drawn) {
   if (scene.species.empty()) return;
   const Composition composition = scene.composition();
   for (std::size_t n = 0; is_drawn && n < composition.size(); ++n) {
+    if (composition[n].sizes) continue;  // each body has its own
     scene.species[n].k = composition[n].k;
     scene.species[n].given_inertia.reset();
   }
@@ -195,16 +197,20 @@ bool describes_state(const std::string& name) {
          name == "species.t_tr" || name == "species.t_rot";
 }
 
+// The full names of keys by section, and by the occurrence of a section that occurs again.
+using GivenKeys = std::map<std::pair<std::string, std::size_t>, std::set<std::string>>;
+
 // The requirement that a key violates because of what the caller provides or because an earlier
-// key excludes it; empty if there is none.
-std::string_view conflict(const Entry& entry, const std::vector<Entry>& given, Provided provided) {
+// key excludes it, of the same entry where both are of entries; empty if there is none.
+std::string_view conflict(const Entry& entry, const GivenKeys& given, Provided provided) {
   const std::string name = full_name(entry);
   if (provided.state && describes_state(name)) return "expected none, as the state is given apart";
   const auto is_given = [&](std::string_view key) {
-    return std::ranges::any_of(given, [&](const Entry& each) {
-      // Entries of one list know nothing of each other.
-      const bool is_beside = each.section != entry.section || each.number == entry.number;
-      return is_beside && is_named(full_name(each), key);
+    return std::ranges::any_of(given, [&](const auto& occurrence) {
+      const auto& [section, number] = occurrence.first;
+      if (section == entry.section && number != entry.number) return false;
+      return std::ranges::any_of(occurrence.second,
+                                 [&](const std::string& each) { return is_named(each, key); });
     });
   };
   for (const Exclusion& each : scene_exclusions()) {
@@ -293,7 +299,7 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
   const Document document(text, name, overrides);
   Scene scene;
   std::vector<std::string> in_order;  // own names, so that each entry of a list has its keys
-  std::vector<Entry> given_before;
+  GivenKeys given_keys;
   for (const Entry& entry : with_overrides_applied(with_items_found(document))) {
     if (entry.is_head) {
       if (!is_scene_section(entry.section)) throw document.error(entry, expected_instead(entry));
@@ -310,9 +316,9 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
                            fmt::format("expected a scene with an entry [[{}]]", entry.section));
     if (!read_value(scene, *key, entry))
       throw document.error(entry, key->expected_instead_of(entry.value));
-    if (const auto reason = conflict(entry, given_before, provided); !reason.empty())
+    if (const auto reason = conflict(entry, given_keys, provided); !reason.empty())
       throw document.error(entry, reason);
-    given_before.push_back(entry);
+    given_keys[{entry.section, entry.number}].insert(full_name(entry));
     in_order.push_back(own_name(entry));
     scene.places[own_name(entry)] = document.place(entry);
   }

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <limits>
 #include <string_view>
 
 #include "src/json/base64.h"
@@ -113,13 +114,17 @@ std::optional<Bodies> bodies_in(const Json& request, const char* field) {
                                    : key == "k"        ? &bodies.k
                                                        : nullptr;
     const bool are_names = key == "name";  // clang 14 captures no structured bindings
+    const bool may_be_infinite = numbers == &bodies.mass;
     const auto is_good = [&](const Json& each) {
-      return numbers ? each.is_number() : are_names && each.is_string();
+      if (!numbers) return are_names && each.is_string();
+      return each.is_number() || (may_be_infinite && each.is_null());
     };
     if (!list.is_array() || !std::ranges::all_of(list, is_good))
       throw wrong(field, *value, expected);
     if (numbers) {
-      *numbers = list.get<std::vector<double>>();
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      for (const Json& each : list)
+        numbers->push_back(each.is_null() ? infinity : each.get<double>());
     } else {
       bodies.names = list.get<std::vector<std::string>>();
     }

@@ -15,6 +15,7 @@
 #include "src/json/base64.h"
 #include "src/json/results.h"
 #include "src/json/shallow_json.h"
+#include "src/runs/bodies_of_needles.h"
 #include "src/runs/limits.h"
 #include "src/runs/load_checkpoint.h"
 #include "src/runs/output_path.h"
@@ -59,9 +60,17 @@ Json json_of(const Bodies& bodies) {
   if (!bodies.names.empty()) out["name"] = bodies.names;
   out["length"] = bodies.length;
   out["diameter"] = bodies.diameter;
-  out["mass"] = bodies.mass;
+  out["mass"] = Json::array();
+  for (const double mass : bodies.mass) out["mass"].push_back(number(mass));  // null: fixed
   out["k"] = bodies.k;
   return out;
+}
+
+/// The columns with the names of their fields.
+template <class Own>
+auto columns_of(Own& own) {
+  return std::array{std::pair("length", &own.length), std::pair("diameter", &own.diameter),
+                    std::pair("mass", &own.mass), std::pair("inertia", &own.inertia)};
 }
 
 /// The state that the request carries; none if it carries no array.
@@ -80,13 +89,17 @@ std::optional<State> state_in(const Json& request) {
   const bool id = read(ids_in(request, "needle_id"), state.id);
   const bool species = read(species_in(request, "species"), state.species);
   const bool bodies = read(bodies_in(request, "bodies"), state.bodies);
+  const auto own = columns_of(state.own_bodies);
+  const bool has_own =
+      std::ranges::any_of(own, [&](const auto& column) { return request.contains(column.first); });
   if (!(position || orientation || velocity || angular_velocity || image || id || species ||
-        bodies)) {
+        bodies || has_own)) {
     return std::nullopt;
   }
   if (!position || !orientation) {
     throw RequestError("position, orientation: expected both, where a state is given");
   }
+  for (const auto& [field, column] : own) read(numbers_in(request, field, state.size()), *column);
   if (!velocity) state.velocity.resize(state.size());
   if (!angular_velocity) state.angular_velocity.resize(state.size());
   // A state takes no rows of these for absent ones.
@@ -251,7 +264,8 @@ runs::PreparedRun& Requests::run_of(const Json& request) {
 
 Json Requests::create(const Json& request, const Connection&) {
   require_only(request, {"scene", "path", "force", "position", "orientation", "velocity",
-                         "angular_velocity", "image", "needle_id", "species", "bodies"});
+                         "angular_velocity", "image", "needle_id", "species", "bodies", "length",
+                         "diameter", "mass", "inertia"});
   const bool force = flag_in(request, "force");
   runs::LoadedScene loaded = scene_in(request);
   runs::require_writable_output(loaded.scene, force, text_in(request, "path").value_or(""),
@@ -315,9 +329,9 @@ Json Requests::state(const Json& request, const Connection&) {
     runs::write_state(run.simulation(), run.scene(), run.data(), *file, flag_in(request, "force"));
     return {{"file", *file}};
   }
-  static constexpr std::array<std::string_view, 8> arrays{
-      "position", "velocity",  "orientation", "angular_velocity",
-      "image",    "needle_id", "species",     "bodies"};
+  static constexpr std::array<std::string_view, 12> arrays{
+      "position", "velocity", "orientation", "angular_velocity", "image", "needle_id",
+      "species",  "bodies",   "length",      "diameter",         "mass",  "inertia"};
   const auto wanted = names_in(request, "arrays", arrays);
   State state = run.simulation().copy();
   state.species.resize(state.size());  // of one species all are 0
@@ -335,6 +349,10 @@ Json Requests::state(const Json& request, const Connection&) {
   add("image", state.image);
   add("needle_id", state.id);
   add("species", state.species);
+  // All of them make a simulation of the same needles, whose bodies differ only where these do.
+  const OwnBodies own = wanted ? runs::bodies_of_needles(run.simulation()) : state.own_bodies;
+  for (const auto& [field, column] : columns_of(own))
+    if (!column->empty()) add(field, *column);
   if (is_wanted("bodies")) answer["bodies"] = json_of(bodies_of(run.simulation().composition()));
   return answer;
 }

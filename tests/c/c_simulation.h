@@ -130,6 +130,8 @@ inline void expect_all_refuse(needlework_simulation* simulation) {
   EXPECT_EQ(needlework_write_state(simulation, "refused.h5", 0), NEEDLEWORK_USAGE);
   EXPECT_EQ(needlework_set_velocities(simulation, &vectors, &vectors), NEEDLEWORK_USAGE);
   EXPECT_EQ(needlework_get_totals(simulation, &totals), NEEDLEWORK_USAGE);
+  EXPECT_EQ(needlework_get_bodies(simulation, nullptr, nullptr, nullptr, nullptr),
+            NEEDLEWORK_USAGE);
   EXPECT_EQ(needlework_get_hash(simulation, hash), NEEDLEWORK_USAGE);
   EXPECT_EQ(needlework_get_counter(simulation, "events", &value), NEEDLEWORK_USAGE);
   EXPECT_EQ(needlework_setting(simulation, "isa"), nullptr);

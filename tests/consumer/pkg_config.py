@@ -30,6 +30,10 @@ light: T_tr 0.456, T_rot 0.470
 heavy: T_tr 0.678, T_rot 0.570
 light with heavy: 2008
 """,
+    "sizes": """\
+shorter than 1: 239, T_tr 0.090
+longer than 1: 161, T_tr 0.067
+""",
 }
 
 # What fortran/images.f90 prints: the first needle has left the box twice, once at either end.
@@ -65,6 +69,7 @@ species short 1  0.50  1.00  0.8533
 species long 2  1.00  4.00  0.2400
 long with short: 1  1.0 -1.0
 species of the needles 1 0 1
+lengths and masses  1.0  0.5  1.0  4.0  1.0  9.0
 """
 
 

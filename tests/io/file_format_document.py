@@ -31,6 +31,7 @@ collisions.epsilon = 0.9
 until.time = 1
 species = [{ name = "a", count = 30 }, { name = "b", count = 20, length = 2 },
            { name = "c", count = 10, mass = 3 }]
+pairs = [{ between = ["b", "c"], meet = false }]
 """
 
 WALLED = """
@@ -64,6 +65,17 @@ SLIDING = """
 needles = { count = 60, box = 4 }
 collisions = { epsilon = 0.3, sliding = true }
 until.time = 0.5
+"""
+
+
+DIFFERING = """
+needles.box = 9
+until.time = 0.1
+[[species]]
+name = "a"
+count = 20
+length = { distribution = "uniform", mean = 1, width = 0.2 }
+diameter.aspect = 5
 """
 
 
@@ -254,7 +266,8 @@ def main(program, source):
         problems += problems_of_examples(document, "file-format.md", folder)
         problems += problems_of_examples(observables, "observables.md", folder)
         for name, scene in {"grid": SWEEP, "mixture": MIXTURE, "walled": WALLED, "rods": RODS,
-                            "sliding": SLIDING, "channel": CHANNEL, "sheared": SHEARED}.items():
+                            "sliding": SLIDING, "channel": CHANNEL, "sheared": SHEARED,
+                            "differing": DIFFERING}.items():
             with open(os.path.join(folder, f"{name}.toml"), "w", encoding="utf-8") as file:
                 file.write(scene)
             if name != "grid":
@@ -268,12 +281,14 @@ def main(program, source):
              of_gravity if row.paths[0].endswith("/gravity") else walls).append(row)
         for row in rows_of(observables, "Datasets"):
             (of_flow if row.paths[0].endswith(OF_FLOW) else at_rest).append(row)
+        rods = rows_of(document, "Files of rods")
         for name, rows, others in [
                 ("run.h5", runs, ()),
                 ("observed.h5", at_rest, runs),
                 ("sheared.h5", of_flow, runs + at_rest + walls),
                 ("mixture.h5", rows_of(document, "Files of mixtures"), runs),
-                ("rods.h5", rows_of(document, "Files of rods"), runs),
+                ("rods.h5", rods, runs),
+                ("differing.h5", rows_of(document, "Files of bodies that differ"), rods + runs),
                 ("sliding.h5", rows_of(document, "Files with sliding contact"), runs),
                 ("walled.h5", walls + rows_of(observables, "Datasets of axes with walls"), runs),
                 ("channel.h5", of_gravity, walls + runs),

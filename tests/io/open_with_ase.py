@@ -138,6 +138,55 @@ def check_sheared(program, folder, rate):
         assert abs(box.attrs["shear_rate"] - rate) < 1e-15
 
 
+DIFFERING = """
+needles.box = 9
+until.collisions_per_needle = 1
+[[species]]
+name = "rods"
+count = 60
+length = { distribution = "lognormal", mean = 1, width = 0.3 }
+diameter.aspect = 5
+mass.density = 3
+[[species]]
+name = "fixed"
+count = 9
+diameter = 0.5
+fixed = true
+"""
+
+
+def check_bodies_that_differ(program, folder):
+    """Arrays of ASE are those of the file, and what ASE writes of them is imported, with infinite
+    masses of fixed rods."""
+    def run(*command):
+        return subprocess.run([program, *command], cwd=folder, check=True, timeout=3600, text=True,
+                              capture_output=True).stderr
+
+    with open(os.path.join(folder, "differing.toml"), "w") as file:
+        file.write(DIFFERING)
+    run("run", "differing.toml", "--out", "differing.h5", "--quiet")
+    run("export", "differing.h5", "differing.xyz")
+    with h5py.File(os.path.join(folder, "differing.h5")) as file:
+        wanted = {name: file["particles/needles"][name][:]
+                  for name in ("length", "diameter", "mass", "inertia")}
+    atoms = ase.io.read(os.path.join(folder, "differing.xyz"))
+    for name, numbers in wanted.items():
+        same(atoms.arrays["masses" if name == "mass" else name], numbers)
+    same(atoms.get_masses(), wanted["mass"])
+    assert np.isinf(atoms.get_masses()[-9:]).all() and len(set(wanted["length"])) == 61
+    same(atoms.arrays["aspherical_shape"],
+         np.stack([wanted["diameter"] / 2, wanted["diameter"] / 2, wanted["length"]], axis=-1))
+    ase.io.write(os.path.join(folder, "differing-back.xyz"), atoms)
+    run("import", "differing-back.xyz", "--out", "differing-back")
+    run("run", "differing-back/scene.toml", "--quiet")
+    with h5py.File(os.path.join(folder, "differing-back/state.h5")) as file:
+        for name, numbers in wanted.items():
+            found = file["particles/needles"][name][:]
+            finite = np.isfinite(numbers)
+            same(np.isfinite(found), finite)
+            assert np.max(np.abs(found[finite] - numbers[finite])) < 2e-8, name
+
+
 def main(writer, program):
     with tempfile.TemporaryDirectory() as folder:
         result = subprocess.run([writer, folder], timeout=3600)
@@ -148,6 +197,7 @@ def main(writer, program):
                            timeout=3600)
             check(path)
         check_way_back(program, folder)
+        check_bodies_that_differ(program, folder)
         for rate in (0.7, -0.45):
             check_sheared(program, folder, rate)
 

@@ -140,6 +140,44 @@ def lammps_reads_sheared_boxes(folder, program, rate):
     return tilt
 
 
+DIFFERING = """
+needles.box = [6, 7, 8]
+until.collisions_per_needle = 5
+[[species]]
+name = "a"
+count = 50
+length = { distribution = "gamma", mean = 1.2, width = 0.3 }
+mass = { distribution = "uniform", mean = 2, width = 0.2 }
+"""
+
+
+def lammps_reads_needles_that_differ(folder, program):
+    """Its diameters are their lengths, its masses theirs, and what it writes is imported."""
+    with open(os.path.join(folder, "differing.toml"), "w") as file:
+        file.write(DIFFERING)
+    run(folder, program, "run", "differing.toml", "--out", "differing.h5", "--quiet")
+    run(folder, program, "export", "differing.h5", "differing.data")
+    lammps(folder, "read_data differing.data")
+
+    def bodies(path):
+        with h5py.File(os.path.join(folder, path)) as file:
+            group = file["particles/needles"]
+            order = np.argsort(group["id"][:])
+            return {name: group[name][:][order] for name in ("length", "mass", "inertia")}
+
+    wanted = bodies("differing.h5")
+    assert len(set(wanted["length"])) == len(set(wanted["mass"])) == 50
+    table = np.loadtxt(os.path.join(folder, "back.dump"), skiprows=9)
+    table = table[np.argsort(table[:, 0])]
+    for column, name in ((17, "length"), (18, "mass")):
+        assert np.max(np.abs(table[:, column] / wanted[name] - 1)) < 1e-15, name
+    for name in ("back.dump", "back.data"):
+        run(folder, program, "import", name, "--out", "differing-back", "--force")
+        found = bodies("differing-back/state.h5")
+        for key, numbers in wanted.items():
+            assert np.max(np.abs(found[key] / numbers - 1)) < 5e-15, (name, key)
+
+
 def main(_writer, program):
     if not shutil.which("lmp"):
         print("lammps is not installed")
@@ -178,6 +216,7 @@ def main(_writer, program):
                              ("velocity", slice(8, 11))]:
             assert np.array_equal(table[:, columns], wanted[key]), key
         lammps_reads_what_is_beyond_edges(folder, program)
+        lammps_reads_needles_that_differ(folder, program)
         tilts = [lammps_reads_sheared_boxes(folder, program, rate) for rate in (0.6, -0.5)]
         assert min(tilts) < 0 < max(tilts), tilts
 

@@ -185,6 +185,41 @@ def check_sheared(folder, program):
         assert np.all((along > -1e-12) & (along < 4 + 1e-12)), along
 
 
+DIFFERING = """
+needles.box = 9
+until.time = 0.1
+[[species]]
+name = "a"
+count = 20
+length = { distribution = "lognormal", mean = 1, width = 0.3 }
+diameter.aspect = 5
+mass.density = 2
+"""
+
+
+def check_bodies_that_differ(folder, program):
+    """Lines are as long as their needles, and say length, mass and radius at both ends."""
+    scene, run = os.path.join(folder, "differing.toml"), os.path.join(folder, "differing.h5")
+    with open(scene, "w", encoding="utf-8") as file:
+        file.write(DIFFERING)
+    subprocess.run([program, "run", scene, "--out", run, "--quiet"], check=True, timeout=3600)
+    for name in ("differing.pvd", "differing.vtkhdf"):
+        subprocess.run([program, "export", run, os.path.join(folder, name)], check=True, timeout=3600)
+    with h5py.File(run) as file:
+        wanted = {name: file["particles/needles"][name][:] for name in ("length", "mass")}
+        wanted["radius"] = file["particles/needles/diameter"][:] / 2
+    reader = vtkHDFReader()
+    reader.SetFileName(os.path.join(folder, "differing.vtkhdf"))
+    reader.Update()
+    for grid in (read_grid(os.path.join(folder, "differing", "frame-00001.vtu")),
+                 reader.GetOutputDataObject(0)):
+        for name, numbers in wanted.items():
+            same(vtk_to_numpy(grid.GetPointData().GetArray(name)), np.repeat(numbers, 2), name)
+        ends = vtk_to_numpy(grid.GetPoints().GetData())
+        lengths = np.linalg.norm(ends[1::2] - ends[::2], axis=1)
+        assert np.allclose(lengths, wanted["length"], rtol=1e-13, atol=0), lengths
+
+
 def main(writer, program):
     with tempfile.TemporaryDirectory() as folder:
         result = subprocess.run([writer, folder], timeout=3600)
@@ -202,6 +237,7 @@ def main(writer, program):
             check_collection(folder, "empty", 0, program)
             check_walls(folder, program)
             check_sheared(folder, program)
+            check_bodies_that_differ(folder, program)
     if not vtkHDFReader:
         print("read with h5py, but not with VTK: python3-vtk9 is not installed")
         sys.exit(77)  # skipped

@@ -44,6 +44,26 @@ TEST(NeedlePictures, ShowEachNeedleAndTwelveEdges) {
   EXPECT_EQ(drawing_of(needles_at(8, {}), settings).strokes.size(), 12);
 }
 
+TEST(NeedlePictures, ShowEachNeedleAsLongAndWideAsItIs) {
+  NeedlePicture settings = along_x();
+  settings.colour = "none";
+  State state = needles_at(8, {{2, 4, 2}, {4, 4, 4}, {6, 4, 6}});
+  state.own_bodies.length = {1, 2, 0.5};
+  std::vector<Stroke> strokes = needles(drawing_of(state, settings));
+  ASSERT_EQ(strokes.size(), 3u);
+  EXPECT_NEAR(length(strokes[1]) / length(strokes[0]), 2, 1e-12);
+  EXPECT_NEAR(length(strokes[2]) / length(strokes[0]), 0.5, 1e-12);
+  EXPECT_TRUE(
+      test::contains(drawing_of(state, settings).description, "3 needles of lengths 0.5 to 2 "));
+  settings.diameters = {0.3};
+  state.own_bodies.diameter = {0.5, 0.25, 1};
+  const Drawing drawing = drawing_of(state, settings);
+  strokes = needles(drawing);
+  EXPECT_NEAR(strokes[1].width / strokes[0].width, 0.5, 1e-12);
+  EXPECT_NEAR(strokes[2].width / strokes[0].width, 2, 1e-12);
+  EXPECT_TRUE(test::contains(drawing.description, ", of diameter 0.25 to 1"));
+}
+
 // From above, in lengths: where a stroke begins and ends.
 TEST(NeedlePictures, ShowTheTiltOfShearedBoxes) {
   NeedlePicture settings;

@@ -208,6 +208,46 @@ class GsdFiles(support.InFolder):
                          {"length": 2, "diameter": 0, "mass": 3, "k": 12})
         self.assertTrue(np.isnan(frame.time))
 
+    def test_bodies_that_differ_are_read_back(self):
+        scene = {"needles": {"box": 7.0},
+                 "species": [{"name": "a", "count": 30, "mass": {"density": 2},
+                              "length": {"distribution": "gamma", "mean": 1, "width": 0.3},
+                              "diameter": {"aspect": 4}},
+                             {"name": "b", "count": 5, "length": 0, "diameter": 0.5, "fixed": True}]}
+        sim, out = needlework.Simulation(scene), self.path("differing.gsd")
+        needlework.to_gsd(sim, out)
+        with gsd.hoomd.open(out, MODE["r"]) as file:
+            particles = file[0].particles
+            np.testing.assert_array_equal(particles.mass, sim.mass.astype(np.float32))
+            np.testing.assert_array_equal(particles.diameter, sim.diameter.astype(np.float32))
+            np.testing.assert_array_equal(particles.moment_inertia[:, 0],
+                                          sim.inertia.astype(np.float32))
+        state = needlework.from_gsd(out).state
+        for name in ("length", "diameter", "mass", "inertia"):
+            np.testing.assert_array_equal(state[name], getattr(sim, name))
+        again = needlework.Simulation({"needles": {"box": 7.0}}, **state)
+        self.assertAlmostEqual(again.totals.energy, sim.totals.energy, places=5)
+        self.assertTrue(np.isinf(again.state.bodies.mass[1]))
+
+    def test_particles_of_other_programs_may_differ(self):
+        snapshot = SNAPSHOT()
+        snapshot.configuration.box = [6, 6, 6, 0, 0, 0]
+        particles = snapshot.particles
+        particles.N = 2
+        particles.types = ["A"]
+        particles.type_shapes = [{"type": "Sphere", "diameter": 1.0}]
+        particles.typeid = [0, 0]
+        particles.position = [[-2, 0, 1], [2, 0, 1]]
+        particles.mass, particles.diameter = [3.0, 4.0], [0.8, 1.2]
+        out = self.path("hoomd.gsd")
+        with gsd.hoomd.open(out, MODE["w"]) as file:
+            file.append(snapshot)
+        state = needlework.from_gsd(out).state
+        sim = needlework.Simulation({"needles": {"box": 6.0}}, **state)
+        np.testing.assert_array_equal(sim.mass, [3, 4])
+        np.testing.assert_array_equal(sim.diameter, [0.8, 1.2])
+        np.testing.assert_array_equal(sim.length, [0, 0])
+
     def test_sheared_boxes_have_their_tilt(self):
         box = np.array([5.0, 6.0, 7.0])
         for rate in (1.5, -0.8):

@@ -93,6 +93,13 @@ class Pictures(InFolder):
             self.assertEqual(ends.shape, (200, 2, 3))
             np.testing.assert_allclose(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1), 1)
 
+    def test_needles_that_differ_are_as_long_as_they_are(self):
+        sim = needlework.Simulation({"needles": {"box": 6.0}, "species": [
+            {"name": "a", "count": 20,
+             "length": {"distribution": "uniform", "mean": 1, "width": 0.3}}]})
+        ends = np.array(plot.needles(sim).collections[0]._segments3d)
+        np.testing.assert_allclose(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1), sim.length)
+
     def test_a_path_is_read(self):
         for read_here, read_before in zip(plot.cooling(self.recording.path).lines,
                                           plot.cooling(self.recording).lines):

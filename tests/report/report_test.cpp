@@ -114,6 +114,21 @@ TEST_F(Report, HoldsSeriesBitForBit) {
   }
 }
 
+TEST_F(Report, DrawsEachNeedleAsLongAsItIs) {
+  Scene scene = parse_scene("needles = { count = 3, box = 5 }\nuntil.time = 1\n", "scene");
+  io::RunInfo info{"scalar", 1, 1.0};
+  info.own_bodies = {
+      .length = {1, 4, 2}, .diameter = {0, 0, 0}, .mass = {1, 1, 1}, .inertia = {1, 1, 1}};
+  io::Writer writer(path("own.h5"), true, scene, info);
+  writer.write_series(totals(0));
+  writer.write_frame(totals(0), state(3, 0));
+  writer.close();
+  const test::PageData page = page_of({"own.h5"});
+  const json& frames = page.json["sections"][0]["frames"];
+  EXPECT_EQ(frames["length"], 4);
+  EXPECT_EQ(page.numbers<float>(frames["share_of_length"]), (std::vector<float>{0.25, 1, 0.5}));
+}
+
 TEST_F(Report, HoldsObservablesWithTheirDescriptions) {
   const test::PageData page = page_of_run();
   const json& pair = page.json["sections"][0]["groups"]["pairs"]["datasets"]["pair"];

@@ -28,7 +28,8 @@ State state_of(const Bodies& bodies) {
 
 Scene adopted(const std::string& text, const Bodies& bodies) {
   Scene scene = parse_scene("initial.file = \"f.h5\"\nuntil.time = 1\n" + text, "s.toml");
-  adopt_state(scene, state_of(bodies));
+  State state = state_of(bodies);
+  adopt_state(scene, state);
   return scene;
 }
 

@@ -20,6 +20,25 @@ KeyNames keys_of_schema() {
   return keys;
 }
 
+// The keys in the first cell of a row; `*.mean` stands for that key of all tables of the section.
+KeyNames keys_in(const std::string& row, const std::string& section) {
+  KeyNames keys;
+  const std::string cell = row.substr(0, row.find('|', 1));
+  for (std::size_t begin = cell.find('`'); begin != cell.npos; begin = cell.find('`', begin)) {
+    const std::size_t end = cell.find('`', begin + 1);
+    const std::string key = cell.substr(begin + 1, end - begin - 1);
+    begin = end + 1;
+    if (!key.starts_with('*')) {
+      keys.insert(section + "." + key);
+      continue;
+    }
+    for (const std::string& each : keys_of_schema()) {
+      if (each.starts_with(section + ".") && each.ends_with(key.substr(1))) keys.insert(each);
+    }
+  }
+  return keys;
+}
+
 // Rows "| `key` | ..." beneath a heading "## [section]", "## [[section]]" or "## Top level".
 KeyNames keys_of_document() {
   std::ifstream file(NEEDLEWORK_SOURCE "/docs/scenes.md");
@@ -32,8 +51,8 @@ KeyNames keys_of_document() {
       section = line.substr(begin, line.find(']') - begin);
     }
     if (!line.starts_with("| `")) continue;
-    const std::string key = line.substr(3, line.find('`', 3) - 3);
-    EXPECT_TRUE(keys.insert(section + "." + key).second) << section << "." << key << " twice";
+    for (const std::string& key : keys_in(line, section))
+      EXPECT_TRUE(keys.insert(key).second) << key << " twice";
   }
   return keys;
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -75,6 +76,50 @@ TEST(Serve, GivesTheTrajectoryOfTheLibraryInPieces) {
   EXPECT_EQ(answers[2]["collisions"], 70);
   EXPECT_EQ(answers[3]["stop"], "collisions");
   EXPECT_EQ(answers[3]["trajectory_hash"], hash_of_whole_run());
+}
+
+// Whose bodies differ, and of which some are fixed: JSON has no infinity, arrays in base64 have.
+TEST(Serve, GivesAndTakesBodiesThatDiffer) {
+  const std::string drawn =
+      "needles.box = 6\n[[species]]\nname = \"a\"\ncount = 40\nmass.density = 2\n"
+      "length = { distribution = \"uniform\", mean = 1, width = 0.3 }\n"
+      "[[species]]\nname = \"wall\"\ncount = 5\nfixed = true\n";
+  auto first = answers_to({{{"do", "create"}, {"scene", drawn}},
+                           {{"do", "advance"}, {"simulation", 1}, {"collisions", 30}},
+                           {{"do", "state"}, {"simulation", 1}}});
+  Json& state = first[2];
+  EXPECT_TRUE(state["bodies"]["mass"][1].is_null());
+  const auto masses = rows_of<double>(state["mass"].get<std::string>(), "a number");
+  ASSERT_EQ(masses.size(), 45u);
+  EXPECT_TRUE(std::isinf(masses[44]));
+  Json again{{"do", "create"}, {"scene", "needles.box = 6\n"}};
+  for (const char* name :
+       {"position", "orientation", "velocity", "angular_velocity", "image", "needle_id", "species",
+        "bodies", "length", "diameter", "mass", "inertia"})
+    again[name] = state[name];
+  Json bad = again;
+  std::vector<double> negative(45, 1.0);
+  negative[3] = -1;
+  bad["length"] = text_of(negative);
+  Json few = again;
+  few["inertia"] = text_of(std::vector<double>(3, 1.0));
+  auto second = answers_to({again, {{"do", "state"}, {"simulation", 1}}, bad, few});
+  for (const char* name :
+       {"position", "species", "bodies", "length", "diameter", "mass", "inertia"})
+    EXPECT_EQ(second[1][name], state[name]) << name;
+  EXPECT_TRUE(test::contains(second[2]["message"].get<std::string>(), "needle 3: length = -1"));
+  EXPECT_EQ(second[3]["message"], "inertia: 3 numbers: expected 45");
+}
+
+TEST(Serve, SendsBodiesThatAreAlikeWhereTheyAreAskedFor) {
+  auto answers = answers_to({create(),
+                             {{"do", "state"}, {"simulation", 1}},
+                             {{"do", "state"}, {"simulation", 1}, {"arrays", {"mass", "inertia"}}},
+                             {{"do", "create"}, {"scene", "needles.box = 5\n"}, {"mass", 2}}});
+  EXPECT_FALSE(answers[1].contains("mass"));
+  EXPECT_EQ(answers[2]["mass"], text_of(std::vector<double>(60, 1)));
+  EXPECT_EQ(answers[2]["inertia"], text_of(std::vector<double>(60, 1.0 / 12)));
+  EXPECT_EQ(answers[3]["message"], "position, orientation: expected both, where a state is given");
 }
 
 TEST(Serve, GoesOnFromAStateThatItHasGiven) {

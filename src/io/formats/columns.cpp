@@ -53,30 +53,10 @@ double rounding_along(const Row& row, const VectorColumns& columns, const Vector
   return 1.01 * half * (std::abs(u[0]) + std::abs(u[1]) + std::abs(u[2]));
 }
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-// `common` has NaN for a species of which nothing is known yet.
-void read_common(const Row& row, std::optional<std::size_t> column, const char* name,
-                 std::size_t species, std::vector<double>& common, const char* if_zero = nullptr) {
-  if (!column) return;
-  const double value = row.read(*column, name);
-  if (!(value > 0 || (if_zero && value == 0))) {
-    row.reject(fmt::format("{} = {}: expected a number > 0{}", name, value,
-                           if_zero ? fmt::format(", or 0 for {}", if_zero) : ""));
-  }
-  if (common.size() <= species) common.resize(species + 1, unknown);
-  if (!std::isnan(common[species]) && common[species] != value) {
-    row.reject(
-        fmt::format("{} = {}: expected {}, as of the needles before: those of a species are "
-                    "equal",
-                    name, value, common[species]));
-  }
-  common[species] = value;
-}
-
 std::pair<const char*, std::vector<double> Material::*> const materials[] = {
-    {"length", &Material::length},   {"mass", &Material::mass}, {"k", &Material::k},
-    {"epsilon", &Material::epsilon}, {"beta", &Material::beta}, {"diameter", &Material::diameter}};
+    {"length", &Material::length},    {"mass", &Material::mass}, {"k", &Material::k},
+    {"epsilon", &Material::epsilon},  {"beta", &Material::beta}, {"meet", &Material::meet},
+    {"diameter", &Material::diameter}};
 
 }  // namespace
 
@@ -95,6 +75,7 @@ void require_all_vectors(const Columns& columns, const ColumnNames& names, const
 
 NeedleReader::NeedleReader(const Columns& columns, Configuration& configuration)
     : columns_(columns),
+      bodies_(columns.bodies),
       configuration_(configuration),
       tilt_(reduced_tilt(columns.tilt, configuration.state.box[0])) {
   configuration.state.slide = tilt_.rest;
@@ -136,12 +117,7 @@ void NeedleReader::read(const Row& row) {
         first);
     state.species.push_back(static_cast<SpeciesIndex>(species));
   }
-  Material& material = configuration_.material;
-  read_common(row, columns_.length, "length", species, material.length,
-              columns_.diameter ? "a sphere" : nullptr);
-  read_common(row, columns_.diameter, "diameter", species, material.diameter, "a thin needle");
-  read_common(row, columns_.mass, "mass", species, material.mass);
-  read_common(row, columns_.k, "k", species, material.k);
+  bodies_.read(row, species);
 }
 
 // Positions then count from the walls.
@@ -269,6 +245,7 @@ void NeedleReader::read_rotation(const Row& row) {
 
 void NeedleReader::finish(const std::string& path) {
   require_distinct_ids(path);
+  bodies_.settle(configuration_);
   leave_out_unknown_species();
   divide_momenta(path);
   if (spinning_ > 0) {
@@ -302,7 +279,8 @@ void NeedleReader::divide_momenta(const std::string& path) {
     throw InputError(fmt::format(
         "{}: momenta without masses: expected a column of masses, or velocities", path));
   }
-  if (by_inertia && (material.length.empty() || material.mass.empty() || material.k.empty())) {
+  const bool is_assumed = material.length.empty() || material.mass.empty() || material.k.empty();
+  if (by_inertia && is_assumed) {
     configuration_.notes.push_back(
         "angular velocities are angular momenta over the moments of inertia of the needles "
         "assumed");
@@ -314,11 +292,12 @@ void NeedleReader::divide_momenta(const std::string& path) {
       throw InputError(fmt::format("{}: a needle of species {}: expected an index below {}", path,
                                    index, composition.size()));
     }
-    const Species& body = composition[index];
+    const BodyOfRow body = body_at(composition.species(), state, i);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (by_mass) state.velocity[i][axis] /= body.mass;
-      if (by_inertia && body.turns()) state.angular_velocity[i][axis] /= body.inertia();
-      if (by_inertia && !body.turns()) state.angular_velocity[i][axis] = 0;
+      if (!by_inertia) continue;
+      double& w = state.angular_velocity[i][axis];
+      w = body.inertia > 0 ? w / body.inertia : 0;
     }
   }
 }
@@ -450,7 +429,10 @@ void set_material(Material& material, std::string_view name, std::string_view va
     std::vector<double>& numbers = material.*member;
     require_first(numbers.empty());
     for (const std::string_view item : items_of(value)) {
-      if (read_decimal(item, numbers.emplace_back()) == std::errc()) continue;
+      double& number = numbers.emplace_back();
+      const bool is_fixed = member == &Material::mass && is_infinite(item);
+      if (is_fixed) number = std::numeric_limits<double>::infinity();
+      if (is_fixed || read_decimal(item, number) == std::errc()) continue;
       row.reject(fmt::format("{} = {}: expected a finite number", name, quotation(value)));
     }
     if (numbers.empty()) row.reject(fmt::format("{} =: expected a number", name));

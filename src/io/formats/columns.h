@@ -10,6 +10,7 @@
 
 #include "src/box/tilt.h"
 #include "src/box/vector.h"
+#include "src/io/formats/body_columns.h"
 #include "src/io/formats/configuration.h"
 #include "src/io/formats/lines.h"
 
@@ -31,7 +32,7 @@ struct Columns {
   std::optional<QuaternionColumns> quaternion;
   std::optional<std::size_t> id;
   std::int64_t first_id = 0;  ///< the id in the file of the needle whose id is 0
-  std::optional<std::size_t> length, mass, k, diameter;
+  BodyPlaces bodies;
   std::optional<VectorColumns> force;  ///< not read by NeedleReader
   std::optional<VectorColumns> edges;  ///< of a box whose bounds enclose more; the same in all rows
   std::optional<std::size_t> species;
@@ -62,16 +63,16 @@ class NeedleReader {
   /// hold.
   void reserve(std::int64_t count, std::size_t bytes);
 
-  /// Appends the needle in a row. Throws InputError if a number cannot be used, if its length or
-  /// mass is not that of the needles before, and if the director is not a unit vector or the
+  /// Appends the needle in a row. Throws InputError if a number cannot be used, if it is another
+  /// kind of body than others of its species, and if the director is not a unit vector or the
   /// angular velocity is not normal to it, by more than a rounding of the numbers in the row
   /// explains: see largest_rounding. What is within that is projected. Of bodies with quaternions,
   /// which may turn about their own axes, that part is left out, with a note.
   void read(const Row& row);
 
-  /// Divides momenta by masses, which must be known, and angular momenta by moments of inertia.
-  /// Throws InputError if an id occurs twice, and if what was projected away from an angular
-  /// velocity is not small in comparison with those of all needles.
+  /// Settles which bodies they are, and divides momenta by masses, which must be known, and angular
+  /// momenta by moments of inertia. Throws InputError if an id occurs twice, and if what was
+  /// projected away from an angular velocity is not small in comparison with those of all needles.
   void finish(const std::string& path);
 
  private:
@@ -89,6 +90,7 @@ class NeedleReader {
   void leave_out_unknown_species();
 
   Columns columns_;
+  BodyColumns bodies_;
   Configuration& configuration_;
   Tilt tilt_;
   // Bodies that a quaternion turns, and that turn about their own axes as well.
@@ -97,9 +99,9 @@ class NeedleReader {
   std::vector<SlowRotation> slow_;
 };
 
-/// Sets numbers of the material by their name: length, mass, k, epsilon, beta, diameter, names,
-/// walls, wall_epsilon or gravity. Several are separated by commas or blanks. Other names are left
-/// alone. Throws InputError for what is not a number, or is set already.
+/// Sets numbers of the material by their name: length, mass, k, epsilon, beta, meet, diameter,
+/// names, walls, wall_epsilon or gravity. Several are separated by commas or blanks. Other names
+/// are left alone. Throws InputError for what is not a number, or is set already.
 void set_material(Material& material, std::string_view name, std::string_view value,
                   const Row& row);
 /// The same numbers as text: "length=1 mass=1 k=6 epsilon=0.9 beta=-1", or "length=1,1.5 ...

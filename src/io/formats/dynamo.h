@@ -37,8 +37,8 @@ Configuration read_dynamo(const std::string& path);
 /// Writes one frame as a configuration, in which each particle has its director as an element
 /// Director besides. DynamO does not read that; read_dynamo() does, and so reads the same director
 /// bit for bit. The material must be complete; see require_complete(). Throws InputError for rods
-/// of finite width, needles of several lengths, species without needles, walls that move, and open
-/// sides that DynamO has no boundary for.
+/// of finite width, needles of several lengths, species whose bodies differ or are fixed, species
+/// without needles, walls that move, and open sides that DynamO has no boundary for.
 std::unique_ptr<FrameWriter> write_dynamo(const std::string& path, bool force,
                                           const Material& material);
 

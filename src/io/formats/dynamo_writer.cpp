@@ -66,6 +66,12 @@ class DynamoWriter : public FrameWriter {
   }
 
   void add(const Frame& frame) override {
+    if (!frame.state.own_bodies.empty()) {
+      throw InputError(
+          fmt::format("{}: bodies of a species that differ: expected equal ones, as particles of a "
+                      "species are written with one mass and one size",
+                      path_));
+    }
     if (frame.state.slide != 0 || frame.state.shear_rate != 0) {
       throw InputError(
           fmt::format("{}: frame {} is of a sheared box: expected one whose images are at rest, as "
@@ -111,6 +117,13 @@ class DynamoWriter : public FrameWriter {
 };
 
 void DynamoWriter::require_known_bodies() const {
+  for (const Species& each : composition_.species()) {
+    if (!each.fixed) continue;
+    throw InputError(
+        fmt::format("{}: the species {} is fixed: expected bodies that move, as immobile particles "
+                    "of DynamO are not written",
+                    path_, each.name));
+  }
   if (!composition_.all_meet()) {
     throw InputError(fmt::format(
         "{}: pairs that pass through each other: expected species that all meet", path_));

@@ -27,14 +27,16 @@ bool is_lammps_data(std::string_view beginning);
 /// vy, vz, mux, muy, muz (a unit vector) or a quaternion w, i, j, k, omegax, omegay, omegaz or
 /// angmomx, angmomy, angmomz, and one set of positions: x, y, z; scaled xs, ys, zs; unwrapped xu,
 /// yu, zu; or both, xsu, ysu, zsu. id, ix, iy, iz, diameter (with a column length: that of rods;
-/// else the length of needles), mass, k and fx, fy, fz are optional; gravity is what gives all
-/// needles the same acceleration. Numbers are not changed, except that scaled positions are
-/// multiplied by the edges, unwrapped ones are wrapped into the box and counted in the images, and
-/// what is rounded is projected as NeedleReader says. Throws IoError if the file cannot be read,
-/// and InputError, "PATH: line N: reason".
+/// else the length of needles), mass (inf of fixed needles), k or inertia, which may differ within
+/// a species, and fx, fy, fz are optional; gravity is what gives all needles the same acceleration.
+/// Numbers are not changed, except that scaled positions are multiplied by the edges, unwrapped
+/// ones are wrapped into the box and counted in the images, and what is rounded is projected as
+/// NeedleReader says. Throws IoError if the file cannot be read, and InputError, "PATH: line N:
+/// reason".
 Configuration read_lammps_dump(const std::string& path, std::optional<std::size_t> wanted = {});
 /// Reads a data file with `Atoms # hybrid sphere dipole` and `Velocities`. Length, mass, k, epsilon
-/// and beta are taken from the first line, where write_lammps_data() writes them.
+/// and beta are taken from the first line, where write_lammps_data() writes them; without a mass
+/// there, it follows from the densities, but for a rounding.
 Configuration read_lammps_data(const std::string& path);
 
 /// The boundary of an axis as LAMMPS has it: pp, or along an axis that is not periodic f at a wall
@@ -46,7 +48,8 @@ std::string lammps_boundary(const State& state, const Material& material, std::s
 /// quaternion and shape OVITO draws needles.
 std::unique_ptr<FrameWriter> write_lammps_dump(const std::string& path, bool force,
                                                const Material& material);
-/// Writes one frame. Throws InputError, "PATH: reason", for rods of finite width.
+/// Writes one frame. Throws InputError, "PATH: reason", for rods of finite width, fixed bodies, and
+/// species with bodies of several k.
 std::unique_ptr<FrameWriter> write_lammps_data(const std::string& path, bool force,
                                                const Material& material);
 

@@ -37,7 +37,7 @@ Columns columns_of(bool with_images) {
   columns.first_species = 1;
   columns.first_id = 1;
   columns.position = {2, 3, 4};
-  columns.length = 5;
+  columns.bodies.length = 5;
   columns.orientation = {8, 9, 10};
   if (with_images) columns.image = {11, 12, 13};
   columns.velocity = {v, v + 1, v + 2};
@@ -99,6 +99,8 @@ Configuration DataReader::read() {
   // All rows have as many columns as the first.
   const bool with_images = !atoms_.empty() && atoms_[0].fields.size() > atom_columns;
   Columns columns = columns_of(with_images);
+  // Those of files without a mass in the title, as other programs write them.
+  if (configuration_.material.mass.empty()) columns.bodies.density = 6;
   columns.lower = lower_;
   columns.tilt = tilt_;
   NeedleReader needles(columns, configuration_);
@@ -207,15 +209,35 @@ std::vector<Row> DataReader::read_rows(std::string_view section) {
   return rows;
 }
 
+// k of each species, which the title says for all of its bodies.
+std::vector<double> common_k(const std::vector<Species>& all, const State& state,
+                             const std::string& path) {
+  std::vector<double> out;
+  for (const Species& each : all) out.push_back(each.k);
+  std::vector<bool> is_known(all.size());
+  for (std::size_t i = 0; i < state.own_bodies.inertia.size(); ++i) {
+    const std::size_t species = species_at(state, i);
+    const double k = body_at(all, state, i).k;
+    if (!is_known[species]) out[species] = k;
+    is_known[species] = true;
+    if (std::abs(k - out[species]) <= 1e-12 * k) continue;
+    throw InputError(fmt::format(
+        "{}: k = m L^2 / (2 I) of {} and {}: expected one for each species, as an atom of a data "
+        "file has no moment of inertia; a dump has one",
+        path, out[species], k));
+  }
+  return out;
+}
+
 class DataWriter : public FrameWriter {
  public:
   DataWriter(const std::string& path, bool force, const Material& material)
-      : title_(text_of(material)), all_(species_of(material)), file_(path, force) {}
+      : path_(path), material_(material), all_(species_of(material)), file_(path, force) {}
 
   void add(const Frame& frame) override {
     const State& state = frame.state;
-    const Bounds bounds = bounds_of(state, farthest_end(all_));
-    file_.print("LAMMPS data file of needles: {}", title_);
+    const Bounds bounds = bounds_of(state, farthest_end(all_, state));
+    file_.print("LAMMPS data file of needles: {}", title(state));
     if (!bounds.are_edges) file_.print(" edges={}", fmt::join(state.box, ","));
     if (frame.time) file_.print(" time={}", *frame.time);
     file_.print("{}", text_of_flow(state));
@@ -238,20 +260,27 @@ class DataWriter : public FrameWriter {
   void publish() override { file_.publish(); }
 
  private:
+  // Where bodies differ, masses are those of the densities.
+  std::string title(const State& state) const {
+    if (state.own_bodies.empty()) return text_of(material_);
+    Material material = material_;
+    material.mass.clear();
+    material.k = common_k(all_, state, path_);
+    return text_of(material);
+  }
+
   void write_atoms(const State& state) {
-    std::vector<double> densities;  // LAMMPS derives the mass from that of a sphere
-    for (const Species& each : all_) {
-      const double volume = std::numbers::pi / 6 * each.length * each.length * each.length;
-      densities.push_back(each.mass / volume);
-    }
     const TiltedCell cell(state);
     file_.print("\nAtoms # {}\n\n", style);
     for (std::size_t i = 0; i < state.size(); ++i) {
       const auto r = cell.position(i);
       const auto& u = state.orientation[i];
-      const std::size_t species = species_at(state, i);
-      file_.print("{} {} {} {} {} {} {} 0 {} {} {}", std::int64_t{id_of(state, i)} + 1, species + 1,
-                  r[0], r[1], r[2], all_.at(species).length, densities[species], u[0], u[1], u[2]);
+      const BodyOfRow body = body_at(all_, state, i);
+      // LAMMPS derives the mass from that of a sphere.
+      const double volume = std::numbers::pi / 6 * body.length * body.length * body.length;
+      file_.print("{} {} {} {} {} {} {} 0 {} {} {}", std::int64_t{id_of(state, i)} + 1,
+                  species_at(state, i) + 1, r[0], r[1], r[2], body.length, body.mass / volume, u[0],
+                  u[1], u[2]);
       if (!state.image.empty()) {
         file_.print(" {}", fmt::join(cell.image(i), " "));
       }
@@ -259,7 +288,8 @@ class DataWriter : public FrameWriter {
     }
   }
 
-  std::string title_;
+  std::string path_;
+  Material material_;
   std::vector<Species> all_;
   TextFile file_;
 };
@@ -287,6 +317,13 @@ std::unique_ptr<FrameWriter> write_lammps_data(const std::string& path, bool for
         fmt::format("{}: rods of finite width: expected thin needles, as an atom of a data file "
                     "has a diameter, but no length beside it; a dump has both",
                     path));
+  }
+  for (const Species& each : species_of(material)) {
+    if (!each.fixed) continue;
+    throw InputError(
+        fmt::format("{}: the species {} is fixed: expected bodies that move, as LAMMPS reads no "
+                    "infinite densities; a dump has infinite masses",
+                    path, each.name));
   }
   return std::make_unique<DataWriter>(path, force, material);
 }

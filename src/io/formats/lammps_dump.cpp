@@ -9,6 +9,7 @@
 #include <span>
 
 #include "src/box/tilt.h"
+#include "src/io/decimal.h"
 #include "src/io/formats/bounds.h"
 #include "src/io/formats/columns.h"
 #include "src/io/formats/input_text.h"
@@ -210,10 +211,12 @@ Columns read_columns(const Lines& lines) {
   }
   columns.angular_velocity = find_vector("omegax", "omegay", "omegaz");
   columns.angular_momentum = find_vector("angmomx", "angmomy", "angmomz");
-  columns.length = find("length");
-  (columns.length ? columns.diameter : columns.length) = find("diameter");
-  columns.mass = find("mass");
-  columns.k = find("k");
+  BodyPlaces& bodies = columns.bodies;
+  bodies.length = find("length");
+  (bodies.length ? bodies.diameter : bodies.length) = find("diameter");
+  bodies.mass = find("mass");
+  bodies.k = find("k");
+  bodies.inertia = find("inertia");
   columns.species = find("type");
   columns.first_species = 1;
   columns.force = find_vector("fx", "fy", "fz");
@@ -243,28 +246,10 @@ PartOfFile find_dump_frame(InputText& file, const std::string& path,
 class DumpWriter : public FrameWriter {
  public:
   DumpWriter(const std::string& path, bool force, const Material& material)
-      : material_(material), file_(path, force) {
-    const std::vector<Species> all = species_of(material);
-    const bool wide = has_width(material), with_k = wide || all.size() > 1;
-    if (wide) names_ += " length";
-    if (wide || !material.length.empty()) names_ += " diameter";
-    if (!material.mass.empty()) names_ += " mass";
-    if (with_k) names_ += " k";
-    const std::array<double, 3>& gravity = material.gravity;
-    const bool falls = gravity != std::array<double, 3>{};
-    if (falls) names_ += " fx fy fz";
-    for (const Species& each : all) {
-      // Diameters of an ellipsoid, as LAMMPS has them; OVITO halves them.
-      std::string& ending = endings_.emplace_back();
-      for (const double semi_axis : drawn_shape(each, are_spheres(material)))
-        ending += fmt::format(" {}", 2 * semi_axis);
-      if (wide || !material.length.empty()) ending += fmt::format(" {}", each.length);
-      if (wide) ending += fmt::format(" {}", each.diameter);
-      if (!material.mass.empty()) ending += fmt::format(" {}", each.mass);
-      if (with_k) ending += fmt::format(" {}", each.k);
-      for (const double g : gravity) {
-        if (falls) ending += fmt::format(" {}", each.mass * g);
-      }
+      : material_(material), all_(species_of(material)), file_(path, force) {
+    for (const Species& each : all_) {
+      const BodyOfRow body{each.length, each.diameter, each.mass_or_infinity(), each.k, 0};
+      endings_.push_back(ending_of(body, false));
     }
   }
 
@@ -272,7 +257,7 @@ class DumpWriter : public FrameWriter {
     const State& state = frame.state;
     const auto boundary = [&](std::size_t axis) { return lammps_boundary(state, material_, axis); };
     const TiltedCell cell(state);
-    Bounds bounds = bounds_of(state, farthest_end(species_of(material_)));
+    Bounds bounds = bounds_of(state, farthest_end(all_, state));
     if (cell.is_sheared()) bounds.include(cell.xy(), state.box);
     file_.print("{}\n{}\nITEM: NUMBER OF ATOMS\n{}\n{}{} {} {} {}\n", begin_of_frame, frame.number,
                 state.size(), begin_of_box, cell.is_sheared() ? " xy xz yz" : "", boundary(0),
@@ -282,11 +267,12 @@ class DumpWriter : public FrameWriter {
       if (cell.is_sheared()) file_.print(" {}", axis == 0 ? cell.xy() : 0.0);
       file_.print("\n");
     }
+    const bool are_own = !state.own_bodies.empty();
     const std::string edges = bounds.are_edges ? "" : fmt::format(" {}", fmt::join(state.box, " "));
     file_.print(
         "{} id type x y z ix iy iz vx vy vz mux muy muz omegax omegay omegaz quatw quati quatj "
         "quatk shapex shapey shapez{}{}\n",
-        begin_of_atoms, names_, bounds.are_edges ? "" : " edgex edgey edgez");
+        begin_of_atoms, names(are_own), bounds.are_edges ? "" : " edgex edgey edgez");
     for (std::size_t i = 0; i < state.size(); ++i) {
       const auto r = cell.position(i);
       const auto& v = state.velocity[i];
@@ -298,15 +284,52 @@ class DumpWriter : public FrameWriter {
       file_.print("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}{}{}\n",
                   std::int64_t{id_of(state, i)} + 1, species + 1, r[0], r[1], r[2], image[0],
                   image[1], image[2], v[0], v[1], v[2], u[0], u[1], u[2], w[0], w[1], w[2], q[0],
-                  q[1], q[2], q[3], endings_.at(species), edges);
+                  q[1], q[2], q[3],
+                  are_own ? ending_of(body_at(all_, state, i), true) : endings_.at(species), edges);
     }
   }
   void publish() override { file_.publish(); }
 
  private:
+  bool is_wide() const { return has_width(material_); }
+  bool has_lengths(bool are_own) const { return is_wide() || !material_.length.empty() || are_own; }
+  bool has_masses(bool are_own) const { return !material_.mass.empty() || are_own; }
+  bool has_k(bool are_own) const { return !are_own && (is_wide() || all_.size() > 1); }
+  bool has_forces() const { return material_.gravity != std::array<double, 3>{}; }
+
+  // Of the columns of ending_of(), after the shape. Moments of inertia say more digits than k.
+  std::string names(bool are_own) const {
+    std::string out;
+    if (is_wide()) out += " length";
+    if (has_lengths(are_own)) out += " diameter";
+    if (has_masses(are_own)) out += " mass";
+    if (has_k(are_own)) out += " k";
+    if (are_own) out += " inertia";
+    if (has_forces()) out += " fx fy fz";
+    return out;
+  }
+
+  // Of the line of a needle.
+  std::string ending_of(const BodyOfRow& body, bool are_own) const {
+    std::string out;
+    const auto add = [&](double number) { out += fmt::format(" {}", number); };
+    // Diameters of an ellipsoid, as LAMMPS has them; OVITO halves them.
+    for (const double semi_axis : drawn_shape(body.length, body.diameter, are_spheres(material_)))
+      add(2 * semi_axis);
+    if (has_lengths(are_own)) add(body.length);
+    if (is_wide()) add(body.diameter);
+    if (has_masses(are_own)) add(body.mass);
+    if (has_k(are_own)) add(body.k);
+    if (are_own) add(body.inertia);
+    for (const double g : material_.gravity) {
+      if (has_forces()) add(body.mass * g);
+    }
+    return out;
+  }
+
   Material material_;
-  std::string names_;                 // of the columns in `endings_`, after the shape
-  std::vector<std::string> endings_;  // of a line, for each species
+  std::vector<Species> all_;
+  std::vector<std::string> endings_;  // of a line, for each species of equal bodies
   TextFile file_;
 };
 
@@ -361,8 +384,9 @@ Configuration read_lammps_dump(const std::string& path, std::optional<std::size_
     lines.require_whole(columns.count, expected);
     needles.read(lines.row());
     if (!columns.force) continue;
-    const double mass = columns.mass ? lines.row().read(*columns.mass, "mass") : 1;
-    gravity.add(lines.row(), *columns.force, mass);
+    const auto mass = columns.bodies.mass;
+    if (mass && is_infinite(lines.fields()[*mass])) continue;  // whatever acts on a fixed needle
+    gravity.add(lines.row(), *columns.force, mass ? lines.row().read(*mass, "mass") : 1);
   }
   while (lines.advance_if_any()) {
     if (begins_next_frame(lines.line())) break;

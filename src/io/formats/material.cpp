@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "needlework/error.h"
 #include "needlework/parse.h"
 #include "needlework/scene.h"
+#include "src/box/own_numbers.h"
 #include "src/io/bodies.h"
 #include "src/io/in_child_process.h"
 #include "src/io/source.h"
@@ -36,10 +38,11 @@ std::vector<double> read_numbers(const Source& source, const std::string& path) 
 }
 
 std::vector<double> read_positive(const Source& source, const std::string& path,
-                                  bool or_zero = false) {
+                                  bool may_be_infinite = false, bool or_zero = false) {
   std::vector<double> values = read_numbers(source, path);
   for (const double value : values) {
-    if ((value > 0 || (or_zero && value == 0)) && std::isfinite(value)) continue;
+    const bool is_in_range = value > 0 || (or_zero && value == 0);
+    if (is_in_range && (may_be_infinite || std::isfinite(value))) continue;
     throw InputError(fmt::format("{} = {}: expected a number {} 0", source.place(path), value,
                                  or_zero ? ">=" : ">"));
   }
@@ -71,11 +74,6 @@ bool fits(const std::vector<double>& values, std::size_t count) {
   return values.size() <= 1 || values.size() == count;
 }
 
-double value_at(const std::vector<double>& values, std::size_t i, double otherwise) {
-  if (values.empty()) return otherwise;
-  return values.size() == 1 ? values[0] : values.at(i);
-}
-
 }  // namespace
 
 static void transfer(Archive& archive, Material& material) {
@@ -86,13 +84,14 @@ static void transfer(Archive& archive, Material& material) {
 static Material read_material_here(const std::string& path) {
   const Source source(path);
   Material material;
-  material.diameter = read_positive(source, "/parameters/diameter", true);
+  material.diameter = read_positive(source, "/parameters/diameter", false, true);
   // A rod without an axis is a sphere.
   material.length = has_width(material) ? read_numbers(source, "/parameters/length")
                                         : read_positive(source, "/parameters/length");
   // Without needles, the group of them does not hold their mass.
-  material.mass = read_positive(source, "/parameters/mass");
-  if (material.mass.empty()) material.mass = masses_by_species(source);
+  constexpr bool may_be_infinite = true;
+  material.mass = read_positive(source, "/parameters/mass", may_be_infinite);
+  if (material.mass.empty() && !has_own_bodies(source)) material.mass = masses_by_species(source);
   material.k = read_positive(source, "/parameters/k");
   material.epsilon = read_numbers(source, "/parameters/epsilon");
   material.beta = read_numbers(source, "/parameters/beta");
@@ -116,10 +115,12 @@ std::vector<Species> species_of(const Material& material) {
     if (each.name.empty()) {
       each.name = all.size() == 1 ? "needles" : fmt::format("needles {}", i + 1);
     }
-    each.length = value_at(material.length, i, each.length);
-    each.mass = value_at(material.mass, i, each.mass);
-    each.diameter = value_at(material.diameter, i, each.diameter);
-    each.k = value_at(
+    each.length = number_of(material.length, i, each.length);
+    const double mass = number_of(material.mass, i, each.mass);
+    each.fixed = std::isinf(mass);
+    if (!each.fixed) each.mass = mass;
+    each.diameter = number_of(material.diameter, i, each.diameter);
+    each.k = number_of(
         material.k, i,
         each.diameter > 0 && each.turns() ? homogeneous_k(each.length, each.diameter) : each.k);
   }
@@ -157,9 +158,43 @@ std::vector<double> diameters_of(const Material& material) {
   return diameters;
 }
 
-double farthest_end(const std::vector<Species>& all) {
+BodyOfRow body_at(const std::vector<Species>& all, const State& state, std::size_t i) {
+  const Species& species = all.at(species_at(state, i));
+  const OwnBodies& own = state.own_bodies;
+  const auto number = [&](const std::vector<double>& rows, double otherwise) {
+    return rows.empty() ? otherwise : rows[i];
+  };
+  BodyOfRow out{.length = number(own.length, species.length),
+                .diameter = number(own.diameter, species.diameter),
+                .mass = number(own.mass, species.mass_or_infinity()),
+                .k = species.k,
+                .inertia = 0};
+  const double shape = out.mass * (out.length * out.length) / 2;
+  out.inertia = number(own.inertia, out.length > 0 ? shape / species.k : 0);
+  if (!own.inertia.empty() && out.inertia > 0 && std::isfinite(out.inertia))
+    out.k = shape / out.inertia;
+  return out;
+}
+
+std::vector<bool> which_differ(const State& state, std::size_t species) {
+  std::vector<bool> out(species);
+  std::vector<std::optional<std::size_t>> first(species);
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const std::size_t its = species_at(state, i);
+    if (!first[its]) first[its] = i;
+    for (const auto& [name, rows] : named_columns(state.own_bodies))
+      if (!rows->empty() && (*rows)[i] != (*rows)[*first[its]]) out[its] = true;
+  }
+  return out;
+}
+
+double farthest_end(const std::vector<Species>& all, const State& state) {
   double longest = 0;
   for (const Species& each : all) longest = std::max(longest, each.extent());
+  for (std::size_t i = 0; i < state.own_bodies.length.size(); ++i) {
+    const BodyOfRow body = body_at(all, state, i);
+    longest = std::max(longest, body.length + body.diameter);
+  }
   return longest / 2;
 }
 
@@ -202,9 +237,9 @@ Composition composition_of(const Material& material, const std::string& path) {
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = a; b < count; ++b) {
       out.set_restitution(a, b,
-                          {value_at(material.epsilon, a * count + b, 1),
-                           value_at(material.beta, a * count + b, -1)});
-      out.set_meets(a, b, value_at(material.meet, a * count + b, 1) != 0);
+                          {number_of(material.epsilon, a * count + b, 1),
+                           number_of(material.beta, a * count + b, -1)});
+      out.set_meets(a, b, number_of(material.meet, a * count + b, 1) != 0);
     }
   }
   return out;

@@ -12,11 +12,12 @@
 
 namespace needlework::io {
 
-/// The species of needles and their restitution. What a file does not say is empty.
+/// The species of needles and their restitution. What a file does not say is empty. Where bodies of
+/// a species differ, numbers are means, and each has its own in the state.
 struct Material {
   std::vector<std::string> names = {};
   std::vector<double> length = {};    ///< of each species [L]
-  std::vector<double> mass = {};      ///< of each species [m]
+  std::vector<double> mass = {};      ///< of each species, infinite of fixed ones [m]
   std::vector<double> k = {};         ///< m L^2 / (2 I) of each species [1]
   std::vector<double> diameter = {};  ///< of each species of rods; none for thin needles [L]
   /// Normal and tangential restitution: one for all, or one for each two species, in rows [1].
@@ -42,16 +43,35 @@ std::vector<Scene::Wall> single_walls(const std::vector<Scene::Wall>& walls);
 /// The wall at this end of an axis (0, 1, 2 for x, y, z), none if there is none.
 const Scene::Wall* wall_at(const Material& material, std::size_t axis, bool high);
 
+/// A body, as files have it.
+struct BodyOfRow {
+  double length, diameter;  ///< [L]
+  double mass;              ///< infinite of a fixed one [m]
+  double k;                 ///< [1]
+  double inertia;           ///< 0 of spheres [m L^2]
+};
+/// The body of a needle, by its own numbers or those of its species.
+BodyOfRow body_at(const std::vector<Species>& all, const State& state, std::size_t i);
+/// Whether the bodies of each of so many species differ.
+std::vector<bool> which_differ(const State& state, std::size_t species);
+
 /// The lengths of the species, and their diameters, 0 of needles.
 std::vector<double> lengths_of(const Material& material);
 std::vector<double> diameters_of(const Material& material);
 /// Whether they are rods of finite width or spheres, and whether all of them are spheres.
 bool has_width(const Material& material);
 bool are_spheres(const Material& material);
-/// Half the longest extent of a species. [L]
-double farthest_end(const std::vector<Species>& all);
+/// Half the longest extent of a body. [L]
+double farthest_end(const std::vector<Species>& all, const State& state);
 /// Whether not all species have the same mass and moment of inertia.
 bool differ_in_inertia(const Material& material);
+
+/// One of the numbers of species, of which a single one is that of all; `otherwise` if there is
+/// none.
+inline double number_of(const std::vector<double>& numbers, std::size_t species, double otherwise) {
+  if (numbers.size() == 1) return numbers[0];
+  return species < numbers.size() ? numbers[species] : otherwise;
+}
 
 /// The index of the species of a needle.
 inline std::size_t species_at(const State& state, std::size_t i) {

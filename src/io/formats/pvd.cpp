@@ -187,6 +187,9 @@ void PvdWriter::write_needles(const std::string& name, const State& state) {
   file.add("spin", spins, 1);
   file.add("species", species);
   if (wide_) file.add("radius", radii_of_ends(state, diameters_), 1);
+  const OwnBodies& own = state.own_bodies;
+  for (const auto& [what, rows] : {std::pair("length", &own.length), {"mass", &own.mass}})
+    if (!rows->empty()) file.add(what, at_both_ends(*rows), 1);
   file.begin("CellData");
   file.add("velocity", flat(state.velocity), 3);
   file.add("orientation", flat(state.orientation), 3);

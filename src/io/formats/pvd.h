@@ -14,8 +14,9 @@ namespace needlework::io {
 ///
 /// A frame is an UnstructuredGrid with one VTK_LINE for each needle, from one end to the other.
 /// Both ends have the point data id, speed (of the centre), spin (size of the angular velocity) and
-/// species; each line has the cell data velocity, orientation and angular_velocity. Numbers are
-/// those of the state. The time of a frame is its number if its file has no times.
+/// species, and where bodies of a species differ length and mass; each line has the cell data
+/// velocity, orientation and angular_velocity. Numbers are those of the state. The time of a frame
+/// is its number if its file has no times.
 ///
 /// Throws IoError if the collection or the folder exists, unless `force` is true; then files of the
 /// same names are replaced, and others in the folder stay. Files that were new are removed if

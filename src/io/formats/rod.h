@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "needlework/composition.h"
 #include "src/io/needle_check.h"
 
 namespace needlework::io {
@@ -17,11 +16,11 @@ inline constexpr double drawn_radius = 0.02;
 /// What OVITO calls the aspherical shape: of needles the semi-axes of an ellipsoid; of rods of
 /// finite width radius, radius and length of the axis, by which it draws spherocylinders, also
 /// spheres among them; in a gas of spheres alone their radii, which are semi-axes as well. [L]
-inline std::array<double, 3> drawn_shape(const Species& body, bool all_are_spheres) {
-  const double radius = 0.5 * body.diameter;
+inline std::array<double, 3> drawn_shape(double length, double diameter, bool all_are_spheres) {
+  const double radius = 0.5 * diameter;
   if (all_are_spheres) return {radius, radius, radius};
-  if (radius > 0) return {radius, radius, body.length};
-  return {drawn_radius * body.length, drawn_radius * body.length, 0.5 * body.length};
+  if (radius > 0) return {radius, radius, length};
+  return {drawn_radius * length, drawn_radius * length, 0.5 * length};
 }
 
 /// A unit quaternion (w, x, y, z) that turns (0, 0, 1) into the direction of a.

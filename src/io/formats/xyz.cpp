@@ -97,7 +97,12 @@ Columns read_properties(std::string_view text, const Lines& lines) {
     const bool is_vector = type == "R" && width == "3";
     if (name == "id" && type == "I" && width == "1") columns.id = first;
     if (name == "needle_species" && type == "I" && width == "1") columns.species = first;
-    if (name == "masses" && type == "R" && width == "1") columns.mass = first;
+    if (type == "R" && width == "1") {
+      if (name == "length") columns.bodies.length = first;
+      if (name == "diameter") columns.bodies.diameter = first;
+      if (name == "masses") columns.bodies.mass = first;
+      if (name == "inertia") columns.bodies.inertia = first;
+    }
     // Its scalar is the last of the four.
     if (name == "orientation" && type == "R" && width == "4")
       columns.quaternion = {first + 3, first, first + 1, first + 2};
@@ -174,24 +179,29 @@ PartOfFile find_xyz_frame(InputText& file, const std::string& path,
 class XyzWriter : public FrameWriter {
  public:
   XyzWriter(const std::string& path, bool force, const Material& material)
-      : material_(text_of(material)), file_(path, force) {
-    for (const Species& each : species_of(material)) {
-      endings_.push_back(
-          fmt::format(" {}", fmt::join(drawn_shape(each, are_spheres(material)), " ")));
+      : material_(text_of(material)),
+        all_(species_of(material)),
+        wide_(has_width(material)),
+        are_spheres_(are_spheres(material)),
+        file_(path, force) {
+    for (std::size_t n = 0; n < all_.size(); ++n) {
+      const BodyOfRow body{all_[n].length, all_[n].diameter, 0, 0, 0};
+      endings_.push_back(ending_of(body, n, false));
     }
-    if (endings_.size() == 1) return;
-    for (std::size_t i = 0; i < endings_.size(); ++i) endings_[i] += fmt::format(" {}", i);
   }
 
   void add(const Frame& frame) override {
     const State& state = frame.state;
     const TiltedCell cell(state);
+    const bool are_own = !state.own_bodies.empty();
     const auto [a, b, c] = cell.vectors();
     file_.print(
         "{}\nLattice=\"{} {} {}\" Properties=species:S:1:pos:R:3:id:I:1:velo:R:3:"
-        "director:R:3:angular_velocity:R:3:orientation:R:4:aspherical_shape:R:3{}",
+        "director:R:3:angular_velocity:R:3:orientation:R:4:aspherical_shape:R:3{}{}{}",
         state.size(), fmt::join(a, " "), fmt::join(b, " "), fmt::join(c, " "),
-        endings_.size() > 1 ? ":needle_species:I:1" : "");
+        all_.size() > 1 ? ":needle_species:I:1" : "",
+        are_own ? ":length:R:1:masses:R:1:inertia:R:1" : "",
+        are_own && wide_ ? ":diameter:R:1" : "");
     if (frame.time) file_.print(" Time={}", *frame.time);
     file_.print("{}", text_of_flow(state));
     const auto letter = [&](std::size_t axis) { return state.periodic[axis] ? 'T' : 'F'; };
@@ -203,16 +213,30 @@ class XyzWriter : public FrameWriter {
       const auto& u = state.orientation[i];
       const auto& w = state.angular_velocity[i];
       const auto q = quaternion_of(u);
-      file_.print("X {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}{}\n", r[0], r[1], r[2],
-                  id_of(state, i), v[0], v[1], v[2], u[0], u[1], u[2], w[0], w[1], w[2], q[1], q[2],
-                  q[3], q[0], endings_.at(species_at(state, i)));
+      const std::size_t species = species_at(state, i);
+      file_.print(
+          "X {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}{}\n", r[0], r[1], r[2],
+          id_of(state, i), v[0], v[1], v[2], u[0], u[1], u[2], w[0], w[1], w[2], q[1], q[2], q[3],
+          q[0], are_own ? ending_of(body_at(all_, state, i), species, true) : endings_.at(species));
     }
   }
   void publish() override { file_.publish(); }
 
  private:
+  // Of the line of a needle.
+  std::string ending_of(const BodyOfRow& body, std::size_t species, bool is_own) const {
+    std::string out =
+        fmt::format(" {}", fmt::join(drawn_shape(body.length, body.diameter, are_spheres_), " "));
+    if (all_.size() > 1) out += fmt::format(" {}", species);
+    if (is_own) out += fmt::format(" {} {} {}", body.length, body.mass, body.inertia);
+    if (is_own && wide_) out += fmt::format(" {}", body.diameter);
+    return out;
+  }
+
   std::string material_;
-  std::vector<std::string> endings_;  // of a line, for each species
+  std::vector<Species> all_;
+  bool wide_, are_spheres_;
+  std::vector<std::string> endings_;  // of a line, for each species of equal bodies
   TextFile file_;
 };
 

@@ -66,31 +66,55 @@ void add_keys(const DrawnQuantity& its, std::vector<SceneKey>& to) {
                 }});
 }
 
-// The first thing that is wrong with a distribution.
+// The first thing that is wrong with a distribution of the species `n`.
+std::optional<Violation> what_is_wrong_with(const Scene& scene, std::size_t n,
+                                            const DrawnQuantity& quantity) {
+  const auto& distribution = scene.species[n].drawn.*quantity.member;
+  if (!distribution) return {};
+  const auto key_of = [&](std::string_view key) {
+    return key_of_entry(fmt::format("species.{}", key), n);
+  };
+  const auto is_given = [&](std::string_view key) { return scene.places.contains(key_of(key)); };
+  const auto& [shape, mean, width, least, greatest, exponent] = quantity.keys;
+  for (const std::string_view key : {mean, width, least, greatest, exponent}) {
+    if (!is_given(key) || is_given(shape)) continue;
+    return Violation{.key = key_of(key),
+                     .value = {},
+                     .reason = fmt::format("expected {} beside it: {}", shape, expected_shape)};
+  }
+  const auto wrong = what_is_wrong(*distribution);
+  if (!wrong) return {};
+  const char* name = name_of(distribution->shape);
+  const std::string key = fmt::format("{}.{}", quantity.name, wrong->name);
+  if (wrong->value) {
+    return Violation{
+        .key = key_of(key),
+        .value = fmt::to_string(*wrong->value),
+        .reason = fmt::format("expected {} of a {} distribution", wrong->expected, name)};
+  }
+  return Violation{.key = key_of(shape),
+                   .value = in_quotes(name),
+                   .reason = fmt::format("expected {} beside it: {}", key, wrong->expected)};
+}
+
 std::optional<Violation> distribution_is_wrong(const Scene& scene) {
   for (std::size_t n = 0; n < scene.species.size(); ++n) {
     for (const DrawnQuantity& each : drawn_quantities) {
-      const auto& distribution = scene.species[n].drawn.*each.member;
-      if (!distribution) continue;
-      const std::string name = fmt::format("species.{}", each.name);
-      const auto key = [&](std::string_view inner) {
-        return key_of_entry(fmt::format("{}.{}", name, inner), n);
-      };
-      if (!scene.text.empty() && !scene.places.contains(key("distribution"))) {
-        return Violation{.key = key("distribution"),
-                         .value = {},
-                         .reason = fmt::format("missing: expected {}", expected_shape)};
-      }
-      const auto wrong = what_is_wrong(*distribution);
-      if (!wrong) continue;
-      return Violation{.key = key(wrong->name),
-                       .value = wrong->value ? fmt::to_string(*wrong->value) : "",
-                       .reason = fmt::format("{}expected {} of a {} distribution",
-                                             wrong->value ? "" : "missing: ", wrong->expected,
-                                             name_of(distribution->shape))};
+      if (auto wrong = what_is_wrong_with(scene, n, each)) return wrong;
     }
   }
   return {};
+}
+
+// The key by which a species says how a number of its bodies comes about.
+std::string key_of_quantity(const Species& species, std::string_view quantity) {
+  if (quantity == "inertia" && species.drawn.k) return key_of_quantity(species, "k");
+  const auto its = std::ranges::find(drawn_quantities, quantity, &DrawnQuantity::name);
+  if (const auto& distribution = species.drawn.*its->member)
+    return fmt::format("{}.{}", quantity, distribution->mean ? "mean" : "min");
+  if (quantity == "mass" && species.drawn.density) return "mass.density";
+  if (quantity == "diameter" && species.drawn.aspect) return "diameter.aspect";
+  return std::string(quantity);
 }
 
 // What would be drawn is known to be a body that a scene may have.
@@ -101,7 +125,8 @@ std::optional<Violation> drawn_body_is_impossible(const Scene& scene) {
     const auto wrong = wrong_body_of(species, scene.needles.seed, first);
     first += species.count;
     if (!wrong) continue;
-    return Violation{.key = key_of_entry(fmt::format("species.{}", wrong->quantity), n),
+    const std::string key = key_of_quantity(species, wrong->quantity);
+    return Violation{.key = key_of_entry("species." + key, n),
                      .value = {},
                      .reason = fmt::format("needle {} would have {}: expected {}", wrong->id,
                                            wrong->value, wrong->expected)};

@@ -64,11 +64,15 @@ std::optional<Violation> more_needles_than_ids(const Scene& scene) {
   return out;
 }
 
+// As a number or as it is drawn.
+bool has_width(const Species& species) {
+  return species.diameter > 0 || species.drawn.diameter || species.drawn.aspect;
+}
+
 std::optional<Violation> body_has_no_extent(const Scene& scene) {
-  const Composition composition = scene.composition();
   for (std::size_t n = 0; n < scene.species.size(); ++n) {
-    const Species& species = composition[n];
-    if (species.extent() > 0) continue;
+    const Species& species = scene.species[n];
+    if (species.length > 0 || species.drawn.length || has_width(species)) continue;
     return Violation{.key = key_of_entry("species.length", n),
                      .value = fmt::to_string(species.length),
                      .reason = "expected a length above 0, or a diameter, which makes it a sphere"};
@@ -87,6 +91,7 @@ std::optional<Violation> inertia_is_impossible(const Scene& scene) {
     const double k =
         species.mass * (species.length * species.length) / (2 * *species.given_inertia);
     if (!species.turns() || range_of_k.holds(k)) continue;
+    if (species.drawn != DrawnSizes{}) continue;  // each body is looked at
     out.reason = fmt::format("expected one with which k = m L^2 / (2 I) is from {:g} to {:g}",
                              range_of_k.least, range_of_k.greatest);
     return out;

@@ -14,6 +14,9 @@ program mixture
   type(needlework_species_pair) :: pair
   type(needlework_limits) :: limits
   type(needlework_error) :: error
+  type(needlework_bodies) :: bodies
+  real(c_double), target :: masses(n) = [4d0, 1d0, 9d0]
+  real(c_double) :: lengths(n), masses_read(n)
   type(c_ptr) :: gas
 
   ! A long needle flies against a short one that rests; another long one rests elsewhere.
@@ -50,5 +53,13 @@ program mixture
   print '(a, i0, 2f5.1)', 'long with short: ', pair%collisions, pair%epsilon, pair%beta
   if (needlework_get_species_of_needles(gas, copy) /= needlework_ok) stop 7
   print '(a, 3(1x, i0))', 'species of the needles', copy
+  call needlework_destroy(gas)
+
+  ! Of the long ones, each has a mass of its own.
+  bodies%mass = c_loc(masses)
+  gas = needlework_create_with_bodies(species_text // c_null_char, initial, species=species, &
+                                      bodies=bodies, flags=0_c_int, error=error)
+  if (needlework_get_bodies(gas, length=lengths, mass=masses_read) /= needlework_ok) stop 8
+  print '(a, 6f5.1)', 'lengths and masses', lengths, masses_read
   call needlework_destroy(gas)
 end program

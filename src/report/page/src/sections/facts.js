@@ -41,25 +41,27 @@ function slidingText({ sliding_below }) {
   return sliding_below === null ? null : `where flights are below ${numberText(sliding_below)} mean free times`;
 }
 
-function ofOneSpecies({ k, length, diameter, mass }) {
+function ofOneSpecies({ k, length, diameter, mass, differ }) {
+  const numbers = (names) => (differ ? `Means of ${names}` : names[0].toUpperCase() + names.slice(1));
   if (diameter > 0) {
     return [
       ["Shape k", length > 0 ? k : null],
-      ["Length, diameter, mass", [length, diameter, mass].map((value) => numberText(value)).join(", ")],
+      [numbers("length, diameter, mass"), [length, diameter, mass].map((value) => numberText(value)).join(", ")],
     ];
   }
   return [
     ["Shape k", k],
-    ["Length, mass", length === 1 && mass === 1 ? null : `${numberText(length)}, ${numberText(mass)}`],
+    [numbers("length, mass"), length === 1 && mass === 1 ? null : `${numberText(length)}, ${numberText(mass)}`],
   ];
 }
 
-function speciesFact({ name, count, length, diameter, mass, k, t_tr, t_rot }) {
+function speciesFact({ name, count, fixed, differ, length, diameter, mass, k, t_tr, t_rot }) {
   const width = diameter > 0 ? { diameter } : {};
   const turns = length > 0 ? { k, "T_tr": t_tr, "T_rot": t_rot } : { "T_tr": t_tr };
-  const properties = { length, ...width, mass, ...turns };
+  const properties = { length, ...width, ...(fixed ? {} : { mass, ...turns }) };
   const text = Object.entries(properties).map(([key, value]) => `${key} ${numberText(value)}`);
-  return [`Species ${name}`, `${numberText(count)} needles: ${text.join(", ")}`];
+  const kind = [fixed ? "fixed" : "", differ ? "means" : ""].filter(Boolean).map((word) => `, ${word}`).join("");
+  return [`Species ${name}`, `${numberText(count)} needles${kind}: ${text.join(", ")}`];
 }
 
 function wallFact({ axis, side, epsilon, temperature, motion }) {
