@@ -363,6 +363,8 @@ class Needles:
         self.shear_rate = float(np.ravel(_get(group, "box").attrs.get("shear_rate", 0))[0])
         self.bodies = _bodies(group)
         self.own = _own_numbers(path, group, self.count)
+        if self.own and "diameter" not in self.own and not np.any(self.bodies.get("diameter", 0)):
+            self.own["diameter"] = np.zeros(self.count)  # not written for thin needles
         self.frames = self._count_frames(position)
         self._require_shapes()
         self.steps, self.times = self._steps_and_times(position)

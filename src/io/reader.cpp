@@ -160,6 +160,11 @@ State FrameReader::read(std::size_t frame) {
   require_needles(state);
   state.bodies = bodies();
   state.own_bodies = read_own_bodies(source_, needles_);
+  // Files do not write it for thin needles.
+  OwnBodies& own = state.own_bodies;
+  const bool are_thin =
+      std::ranges::all_of(state.bodies.diameter, [](double diameter) { return diameter == 0; });
+  if (!own.empty() && own.diameter.empty() && are_thin) own.diameter.assign(needles_, 0);
   return state;
 }
 

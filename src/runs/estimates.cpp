@@ -19,6 +19,7 @@ namespace {
 // add. The scalar search takes a quarter less.
 constexpr double base_bytes = 12e6;
 constexpr double bytes_per_needle = 580;
+constexpr double bytes_per_needle_of_own_numbers = 100;
 constexpr double bytes_per_needle_of_a_frame = 100;
 constexpr double bytes_per_needle_of_a_checkpoint = 400;  // while it is written
 constexpr double bytes_per_needle_of_displacement = 500;  // eight references, of 48 each, and more
@@ -28,6 +29,9 @@ constexpr double bytes_per_needle_of_time_correlation = 4500;  // 40 states of 9
 
 double estimated_memory(const Scene& scene) {
   double per_needle = bytes_per_needle;
+  // Without drawing them: there may be too many.
+  const auto may_differ = [](const Species& s) { return s.sizes || s.drawn != DrawnSizes{}; };
+  if (std::ranges::any_of(scene.species, may_differ)) per_needle += bytes_per_needle_of_own_numbers;
   if (!scene.output.file.empty()) {
     per_needle += bytes_per_needle_of_a_frame;
     if (scene.output.checkpoint_every > 0) per_needle += bytes_per_needle_of_a_checkpoint;

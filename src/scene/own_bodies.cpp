@@ -283,10 +283,11 @@ OwnBodies all_numbers_of(const Scene& scene, const State& state) {
   for (std::size_t row = 0; row < state.size(); ++row) {
     StopRequest::check_in_turn(row);
     const std::size_t its = composition.size() > 1 ? species[row] : 0;
+    if (its >= makers.size()) return own;  // refused elsewhere
     const auto given = [row](const std::vector<double>& column) {
       return column.empty() ? std::nullopt : std::optional(column[row]);
     };
-    const BodyNumbers body = makers.at(its).body(
+    const BodyNumbers body = makers[its].body(
         id_of_row(state, row),
         {given(own.length), given(own.diameter), given(own.mass), given(own.inertia)});
     out.length.push_back(body.length);

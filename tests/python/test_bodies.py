@@ -71,14 +71,14 @@ class OwnBodies(support.InFolder):
         of_file.run(collisions=50)
         self.assertEqual(again.hash, of_file.hash)
 
-    def test_of_thin_needles_in_files_have_no_diameter(self):
+    def test_of_thin_needles_in_files_have_a_diameter_of_0(self):
         path = str(self.folder / "thin.h5")
         scene = {"needles": {"box": 6.0}, "species": [{"name": "a", "count": 30, "length": SIZES}]}
         needlework.Simulation(scene).save(path)
         with needlework.read(path) as run:
-            self.assertNotIn("diameter", run.frames[0].state)
-            np.testing.assert_array_equal(run.frames[0].diameter, np.zeros(30))
-            self.assertEqual(len(run.frames[0].state.to_pandas().columns), 20)
+            self.assertNotIn("diameter", h5py.File(path)["particles/needles"])
+            np.testing.assert_array_equal(run.frames[0].state.diameter, np.zeros(30))
+            self.assertEqual(len(run.frames[0].state.to_pandas().columns), 21)
 
     def test_resumed_runs_have_them(self):
         path = str(self.folder / "run.h5")
