@@ -62,6 +62,21 @@ TEST(CSpecies, HaveNamesPropertiesAndPairs) {
   EXPECT_EQ(pair_of(gas, 1, 1).beta, -1);
 }
 
+TEST(CSpecies, MeetUnlessTheSceneSaysNot) {
+  const CSimulation gas(drawn + "[[pairs]]\nbetween = ['rod', 'rod']\nmeet = false\n");
+  ASSERT_NE(gas, nullptr) << gas.error.message;
+  for (const std::size_t a : {0, 1}) {
+    for (const std::size_t b : {0, 1}) {
+      int meet = 7;
+      EXPECT_EQ(needlework_species_meet(gas, a, b, &meet), NEEDLEWORK_OK);
+      EXPECT_EQ(meet, a == 1 && b == 1 ? 0 : 1);
+    }
+  }
+  int meet = 7;
+  EXPECT_EQ(needlework_species_meet(gas, 0, 2, &meet), NEEDLEWORK_USAGE);
+  EXPECT_EQ(needlework_species_meet(gas, 0, 1, nullptr), NEEDLEWORK_USAGE);
+}
+
 TEST(CSpecies, ShareEnergyAndCollisions) {
   const CSimulation gas(drawn);
   gas.run_to(300);

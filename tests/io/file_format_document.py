@@ -31,7 +31,7 @@ collisions.epsilon = 0.9
 until.time = 1
 species = [{ name = "a", count = 30 }, { name = "b", count = 20, length = 2 },
            { name = "c", count = 10, mass = 3 }]
-pairs = [{ between = ["b", "c"], meet = false }]
+pairs = [{ between = ["a", "c"], meet = false }]
 """
 
 WALLED = """

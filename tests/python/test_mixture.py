@@ -54,6 +54,17 @@ class Mixture(unittest.TestCase):
         self.assertEqual(sum(sim.collisions_by_pair.values()), 500)
         self.assertGreater(sim.collisions_by_pair["short-rod"], 50)
 
+    def test_species_may_pass_through_each_other(self):
+        pairs = [{"between": ["short", "rod"], "meet": False}]
+        sim = Simulation(mixture(pairs=pairs))
+        sim.run(collisions=100)
+        np.testing.assert_array_equal(sim.gas.meet, [[1, 0], [0, 1]])
+        self.assertEqual(sim.collisions_by_pair["short-rod"], 0)
+        rates = theory.mixture_rates(sim.gas, [1, 2], [0.25, 1])
+        self.assertEqual(rates.collisions[0, 1], 0)
+        self.assertGreater(rates.collisions[0, 0], 0)
+        self.assertNotIn("meet", Simulation(MIXTURE).gas)
+
     def test_gas_has_properties_by_species(self):
         gas = Simulation(MIXTURE).gas
         self.assertEqual(gas.species, ("short", "rod"))

@@ -44,6 +44,21 @@ TEST(MixtureRates, AgreeWithSampledContacts) {
   EXPECT_NEAR(both.temperatures[1].t_rot - b.t_rot, n_a * -0.14204, n_a * 2e-4);
 }
 
+TEST(MixtureRates, OfSpeciesThatPassThroughEachOtherAreZero) {
+  Composition composition({{.name = "a", .count = 100}, {.name = "b", .count = 50, .length = 2}},
+                          {0.8, 0.3});
+  const std::array<Temperatures, 2> now = {Temperatures{1, 0.5}, Temperatures{2, 1}};
+  const auto all = theory::mixture_rates(composition, 1000, now);
+  composition.set_meets(0, 1, false);
+  EXPECT_FALSE(composition.restitution(1, 0).is_rough());
+  const auto some = theory::mixture_rates(composition, 1000, now);
+  EXPECT_EQ(some.collisions, (std::vector{all.collisions[0], 0.0, all.collisions[2]}));
+  composition.set_meets(0, 0, false);
+  const auto last = theory::mixture_rates(composition, 1000, now);
+  EXPECT_EQ(last.temperatures[0].t_tr, 0);
+  EXPECT_EQ(last.temperatures[1].t_tr, some.temperatures[1].t_tr);
+}
+
 // One species, told as two, is what it is as one, smooth or rough.
 TEST(MixtureRates, OfOneSpeciesTwiceAreThoseOfOne) {
   for (const Restitution rule : {Restitution{0.8, -1}, Restitution{0.6, 0.3}, Restitution{1, 1}}) {
