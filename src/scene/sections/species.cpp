@@ -67,7 +67,7 @@ std::optional<Violation> more_needles_than_ids(const Scene& scene) {
 std::optional<Violation> body_has_no_extent(const Scene& scene) {
   for (std::size_t n = 0; n < scene.species.size(); ++n) {
     const Species& species = scene.species[n];
-    if (species.extent() > 0) continue;
+    if (species.extent() > 0 || species.drawn.diameter) continue;
     return Violation{.key = key_of_entry("species.length", n),
                      .value = fmt::to_string(species.length),
                      .reason = "expected a length above 0, or a diameter, which makes it a sphere"};

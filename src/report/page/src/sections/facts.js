@@ -54,12 +54,12 @@ function ofOneSpecies({ k, length, diameter, mass }) {
   ];
 }
 
-function speciesFact({ name, count, length, diameter, mass, k, t_tr, t_rot }) {
+function speciesFact({ name, count, length, diameter, mass, k, t_tr, t_rot, fixed }) {
   const width = diameter > 0 ? { diameter } : {};
   const turns = length > 0 ? { k, "T_tr": t_tr, "T_rot": t_rot } : { "T_tr": t_tr };
-  const properties = { length, ...width, mass, ...turns };
+  const properties = { length, ...width, ...(fixed ? {} : { mass, ...turns }) };
   const text = Object.entries(properties).map(([key, value]) => `${key} ${numberText(value)}`);
-  return [`Species ${name}`, `${numberText(count)} needles: ${text.join(", ")}`];
+  return [`Species ${name}`, `${numberText(count)}${fixed ? " fixed" : ""} needles: ${text.join(", ")}`];
 }
 
 function wallFact({ axis, side, epsilon, temperature, motion }) {
