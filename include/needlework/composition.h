@@ -26,16 +26,26 @@ struct DrawnSizes {
   friend bool operator==(const DrawnSizes&, const DrawnSizes&) = default;
 };
 
+/// How a number differs among the bodies of a species, as they are.
+struct Spread {
+  double mean = 0;
+  double width = 0;  ///< standard deviation over mean [1]
+  double least = 0, greatest = 0;
+
+  bool is_one() const { return least == greatest; }
+  friend bool operator==(const Spread&, const Spread&) = default;
+};
+
 /// What bodies of a species are whose sizes differ: means over them, and how far they reach.
 struct Sizes {
-  double product = 0;                                 ///< of length and diameter, the mean [L^2]
-  double square = 0;                                  ///< of the diameter [L^2]
-  double cube = 0;                                    ///< of the diameter [L^3]
-  double volume = 0;                                  ///< the mean; so that of all is exact [L^3]
-  double least_extent = 0, greatest_extent = 0;       ///< from end to end [L]
-  double greatest_length = 0, greatest_diameter = 0;  ///< [L]
-  double least_diameter = 0;                          ///< [L]
-  double least_mass = 0, least_inertia = 0;           ///< [m], [m L^2]
+  double product = 0;                            ///< of length and diameter, the mean [L^2]
+  double square = 0;                             ///< of the diameter [L^2]
+  double cube = 0;                               ///< of the diameter [L^3]
+  double volume = 0;                             ///< the mean; so that of all is exact [L^3]
+  double least_extent = 0, greatest_extent = 0;  ///< from end to end [L]
+  Spread length, diameter;                       ///< [L]
+  Spread mass, inertia;                          ///< [m], [m L^2]
+  Spread k;  ///< one number where all differ from it by rounding alone; zeros of spheres [1]
 
   friend bool operator==(const Sizes&, const Sizes&) = default;
 };
@@ -69,14 +79,16 @@ struct Species {
   double extent() const { return length + diameter; }  ///< from end to end; the mean [L]
   /// Of the largest body. [L]
   double greatest_extent() const { return sizes ? sizes->greatest_extent : extent(); }
-  double greatest_diameter() const { return sizes ? sizes->greatest_diameter : diameter; }
-  double greatest_length() const { return sizes ? sizes->greatest_length : length; }
+  double greatest_diameter() const { return sizes ? sizes->diameter.greatest : diameter; }
+  double greatest_length() const { return sizes ? sizes->length.greatest : length; }
   /// The mass as files and other programs have it: infinite of fixed ones. [m]
   double mass_or_infinity() const { return fixed ? std::numeric_limits<double>::infinity() : mass; }
   double volume() const;  ///< the mean [L^3]
   /// The means of length times diameter, and of the diameter squared. [L^2]
   double product() const { return sizes ? sizes->product : length * diameter; }
   double square() const { return sizes ? sizes->square : diameter * diameter; }
+  /// The mean of the diameter cubed. [L^3]
+  double cube() const { return sizes ? sizes->cube : diameter * diameter * diameter; }
 };
 
 /// k of a homogeneous rod of this length and diameter, both >= 0 and not both 0.
@@ -173,8 +185,10 @@ class Composition {
   bool has_own_sizes() const;
   double packing_fraction(double volume) const;  ///< share of this volume that rods take up
   bool is_mixture() const { return size() > 1; }
-  /// One species of thin needles, as in the paper: kinetic theory is exact at every density.
-  bool is_needle_gas() const { return !is_mixture() && !has_width() && all_meet(); }
+  /// One species of alike thin needles, as in the paper: kinetic theory is exact at every density.
+  bool is_needle_gas() const {
+    return !is_mixture() && !has_width() && !has_own_sizes() && all_meet();
+  }
   /// Whether any pair has tangential restitution, or loses energy.
   bool is_rough() const;
   bool is_inelastic() const;

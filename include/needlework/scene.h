@@ -131,6 +131,7 @@ struct Scene {
     std::optional<double> frames_every;       ///< frames at its multiples instead [time]
     std::vector<std::string> observables;     ///< names of what /series holds besides Totals
     std::optional<std::array<int, 3>> grid;   ///< cells along each axis; absent: of 20 needles
+    std::optional<int> size_classes;          ///< of each species, for /series/by_size
     bool events = false;                      ///< whether to record every collision
     double checkpoint_every = 300;            ///< wall time between two checkpoints beside the
                                               ///< file [s]; 0: none

@@ -51,6 +51,16 @@ double collision_rate(double density, Temperatures temperatures, double k);
 double equilibrium_rate(double count, double volume, double total_energy, double k,
                         int conserved = 3);
 
+/// What a fixed energy of all freedoms makes of velocities.
+struct Equilibrium {
+  double temperature;  ///< 2 E / D [energy]
+  double
+      speed;  ///< of a mean relative velocity, over that of Gaussian ones of this temperature [1]
+};
+
+/// Of `count` >= 1 needles that share this energy, D = 5 `count` - `conserved`.
+Equilibrium equilibrium_of(double count, double total_energy, int conserved = 3);
+
 /// d(T_tr, T_rot) / d tau at this instant, with tau = gamma t and gamma = (2/3) sqrt(pi) n. Exact
 /// for Gaussian velocities. Either temperature may be 0. In an elastic gas the energy 3/2 T_tr +
 /// T_rot is conserved to rounding.
@@ -120,7 +130,7 @@ double pair_factor_between_walls(const Species& a, Temperatures at_a, const Spec
 /// Energy that kicks give, per needle and time, for elastic and inelastic needles alike: every dt
 /// each component of a velocity changes by a Gaussian number of variance translational^2 dt, each
 /// of the two of an angular velocity by one of rotational^2 dt, and the momentum that this gives is
-/// taken off. [energy / time]
+/// taken off, unless there are fixed ones. Needles are those that move. [energy / time]
 double kick_power(const Composition& composition, double translational, double rotational);
 
 /// The steady state of a gas in uniform shear at low density.
@@ -157,8 +167,13 @@ MixtureRates mixture_rates(const Composition& composition, double volume,
 /// an elastic fluid in equilibrium without order than at low density: 1 for needles. Of spheres the
 /// values of G. A. Mansoori, N. F. Carnahan, K. E. Starling and T. W. Leland, J. Chem. Phys. 54,
 /// 1523 (1971). Rods count as the spheres with which these give the pressure that I. Nezbeda, Chem.
-/// Phys. Lett. 41, 55 (1976), finds of rods alone at the same packing fraction. [1]
+/// Phys. Lett. 41, 55 (1976), finds of rods alone at the same packing fraction. Where spheres of a
+/// species differ, the mean over its bodies, each two by (D + D')^2. [1]
 std::vector<double> contact_values(const Composition& composition, double volume);
+
+/// p V / (N T) of spheres in such a fluid, by the same authors, from the means of D, D^2 and D^3 of
+/// the bodies that there are: right to 1 % up to a packing fraction of some 0.5. [1]
+double sphere_compressibility(const Composition& composition, double volume);
 
 /// Second virial coefficient of rods whose directors are uniformly distributed, 0 for needles: at
 /// low density n the pressure of elastic rods in equilibrium is n T (1 + n B). [L^3]
@@ -167,12 +182,12 @@ double second_virial(const Composition& composition);
 /// Collisions of each two species per unit time in elastic equilibrium, by Composition::pair_index,
 /// of needles with zero momentum and this energy of all in a volume: the rates at the temperature
 /// T = 2 E / (5 N - 3) of all of them, times the factor of equilibrium_rate(). At least two
-/// needles. `conserved` as there.
+/// needles; N are those that move. `conserved` as there.
 std::vector<double> mixture_equilibrium_rates(const Composition& composition, double volume,
                                               double total_energy, int conserved = 3);
 
-/// The temperatures of all needles together, so that they give the mean energy: T_rot is that of
-/// those that turn, which spheres do not.
+/// The temperatures of all needles that move together, so that they give the mean energy: T_rot is
+/// that of those that turn, which spheres do not.
 Temperatures mean_of_species(const Composition& composition, std::span<const Temperatures> each);
 
 /// The temperatures of each species at each of the times (finite, >= 0, any order), from those

@@ -8,10 +8,12 @@
 
 #include "src/cli/json.h"
 #include "src/composition/pair_name.h"
+#include "src/json/results.h"
 #include "src/machine/available_cores.h"
 #include "src/runs/amount_text.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/resources.h"
+#include "src/runs/size_text.h"
 #include "src/scene/confinement.h"
 
 namespace needlework::cli {
@@ -40,15 +42,6 @@ std::string line(const char* name, const std::string& text) {
   return fmt::format("  {:<16}{}\n", name, text);
 }
 
-std::string shape_text(const Species& species) {
-  const double k = species.k, diameter = species.diameter;
-  if (!species.turns()) return fmt::format("spheres of diameter {:g}", diameter);
-  if (diameter > 0) return fmt::format("rods of diameter {:g}, k = {:.6g}", diameter, k);
-  if (k == 6) return "k = 6, uniform rods";
-  if (k == 2) return "k = 2, all mass at the tips";
-  return fmt::format("k = {:g}", k);
-}
-
 // Of a needle of this species at the start. Both needles of a collision count it.
 double mean_free_time_of(const runs::Explanation& e, const Composition& composition,
                          std::size_t species) {
@@ -68,13 +61,14 @@ Json species_json(const runs::Explanation& e, const Composition& composition) {
                    {"count", each.count},
                    {"length", each.length},
                    {"diameter", each.diameter},
-                   {"mass", each.mass},
-                   {"k", each.k},
+                   {"mass", number(each.mass_or_infinity())},
+                   {"k", json::k_of(each)},
                    {"t_tr", number(e.by_species[n].t_tr)},
                    {"t_rot", number(e.by_species[n].t_rot)}});
+    json::add_sizes(out.back(), each);
     if (!composition.is_mixture()) continue;
     out.back()["mean_free_time"] =
-        e.rates.empty() ? Json() : number(mean_free_time_of(e, composition, n));
+        e.rates.empty() || each.fixed ? Json() : number(mean_free_time_of(e, composition, n));
   }
   return out;
 }
@@ -100,8 +94,9 @@ std::string start_text(const runs::Explanation& e) {
   const std::string from = initial.file.empty()
                                ? fmt::format("drawn, seed {}", e.scene.needles.seed)
                                : "read from " + initial.file;
-  return fmt::format("{}; T_tr = {:.6g}, T_rot = {:.6g}, E = {:.6g} per needle", from,
-                     e.initial.t_tr, e.initial.t_rot, e.initial.energy());
+  return fmt::format("{}; T_tr = {:.6g}, T_rot = {:.6g}, E = {:.6g} per needle{}", from,
+                     e.initial.t_tr, e.initial.t_rot, e.initial.energy(),
+                     e.scene.composition().has_fixed() ? " that moves" : "");
 }
 
 std::string collision_text(const Restitution& c) {
@@ -113,17 +108,24 @@ std::string collision_text(const Restitution& c) {
                      c.beta);
 }
 
+// Of a species as its bodies are on average.
+std::string body_text(const Species& species) {
+  if (species.fixed) return fmt::format("of length {:g}, fixed", species.length);
+  return fmt::format("of length {:g} and mass {:g}{}", species.length, species.mass,
+                     species.sizes ? " on average" : "");
+}
+
 // Properties and temperatures of each species, and how often they collide at the start.
 std::string species_lines(const runs::Explanation& e, const Composition& composition) {
   std::string text;
   const char* title = "needles";
   for (std::size_t n = 0; n < composition.size(); ++n) {
     const Species& species = composition[n];
-    text += line(title,
-                 fmt::format("{}, {}, species \"{}\" of length {:g} and mass {:g}", species.count,
-                             shape_text(species), species.name, species.length, species.mass));
+    text += line(title, fmt::format("{}, {}, species \"{}\" {}", species.count,
+                                    runs::shape_text(species), species.name, body_text(species)));
     title = "";
-    if (!composition.is_mixture()) continue;
+    for (const std::string& size : runs::size_lines(species)) text += line("", size);
+    if (!composition.is_mixture() || species.fixed) continue;
     text += line("", fmt::format("at T_tr = {:.6g}, T_rot = {:.6g}{}", e.by_species[n].t_tr,
                                  e.by_species[n].t_rot,
                                  e.rates.empty() || species.count == 0
@@ -142,7 +144,8 @@ std::string collision_lines(const Scene& scene, const Composition& composition) 
     for (std::size_t b = a; b < composition.size(); ++b) {
       const Restitution& rule = composition.restitution(a, b);
       const bool meet = composition.meets(a, b);
-      if (meet && rule == usual) continue;
+      const bool both_fixed = composition[a].fixed && composition[b].fixed;
+      if ((meet && rule == usual) || both_fixed) continue;
       text += line("", fmt::format("{}: {}", pair_name(composition, a, b),
                                    meet ? collision_text(rule) : "pass through each other"));
     }
@@ -312,7 +315,8 @@ Json driving_json(const runs::Explanation& e) {
   return out;
 }
 
-std::string until_text(const Scene::Until& until) {
+std::string until_text(const Scene& scene) {
+  const Scene::Until& until = scene.until;
   std::vector<std::string> conditions;
   const auto add = [&](const char* name, const std::optional<double>& value) {
     if (value) conditions.push_back(fmt::format("{} = {:g}", name, *value));
@@ -321,13 +325,20 @@ std::string until_text(const Scene::Until& until) {
   add("collisions_per_needle", until.collisions_per_needle);
   add("energy_ratio", until.energy_ratio);
   add("wall_s", until.wall_s);
-  return fmt::format("{}", fmt::join(conditions, " or "));
+  // 2 collisions / N, whether or not they move.
+  const bool counts_fixed = until.collisions_per_needle && scene.composition().has_fixed();
+  return fmt::format("{}{}", fmt::join(conditions, " or "),
+                     counts_fixed ? fmt::format(", of all {} needles", scene.needles.count) : "");
 }
 
 std::string expected_text(const runs::Explanation& e) {
   if (!e.expected && is_pushed(e.scene)) {
     return fmt::format("not known: the theory of a gas that cools does not apply to {}",
                        e.scene.shear ? "uniform shear" : "walls, gravity and driving");
+  }
+  const char* beyond = runs::beyond_cooling_theory(e.scene.composition());
+  if (!e.expected && beyond && e.scene.composition().is_inelastic()) {
+    return fmt::format("not known: the theory of a gas that cools does not apply to {}", beyond);
   }
   if (!e.expected) {
     return e.scene.until.wall_s ? "runs until wall_s is over" : "never ends, as far as theory goes";
@@ -338,9 +349,16 @@ std::string expected_text(const runs::Explanation& e) {
   }
   return fmt::format(
       "{} is met first, at time {:.3g} with E/E(0) = {:.3g}, after about {:.3g} "
-      "collisions ({:.3g} per needle)",
+      "collisions ({:.3g} per needle){}",
       condition_of(e.expected->stop), e.expected->time, e.expected->energy_ratio, e.collisions,
-      e.expected->collisions_per_needle);
+      e.expected->collisions_per_needle, beyond ? ", at the rate of the start" : "");
+}
+
+std::string exact_rate_text(const runs::Explanation& e, const Composition& composition) {
+  const std::string text = fmt::format("{:.6g} per needle and time, in equilibrium of {} needles",
+                                       e.rate_exact, composition.count() - composition.fixed());
+  if (!composition.has_fixed()) return text;
+  return text + fmt::format(" that move among {} fixed, which count, too", composition.fixed());
 }
 
 std::string engine_text(const runs::Explanation& e) {
@@ -395,7 +413,7 @@ std::string json_of(const runs::Explanation& e) {
     json["packing_fraction"] = composition.packing_fraction(box[0] * box[1] * box[2]);
   }
   if (e.placing) json["placing"] = placing_json(e);
-  json["k"] = of_one(composition[0].k);
+  json["k"] = one ? json::k_of(composition[0]) : Json();
   json["seed"] = scene.needles.seed;
   json["t_tr"] = e.initial.t_tr;
   json["t_rot"] = e.initial.t_rot;
@@ -450,11 +468,13 @@ std::string text_of(const runs::Explanation& e) {
   std::string text = scene.title.empty() ? "" : scene.title + "\n";
   const Composition composition = scene.composition();
   if (scene.species.empty()) {
-    text += line("needles", fmt::format("{}, {}", scene.needles.count, shape_text(composition[0])));
+    text += line("needles",
+                 fmt::format("{}, {}", scene.needles.count, runs::shape_text(composition[0])));
   }
   if (!scene.species.empty()) text += species_lines(e, composition);
+  const bool differ = composition.is_mixture() || composition.has_own_sizes();
   const char* volume = composition.longest() == 1 ? "unit of volume"
-                       : composition.is_mixture() ? "cube of the longest length"
+                       : differ                   ? "cube of the longest length"
                                                   : "cube of their length";
   text += line("box", fmt::format("{:g} x {:g} x {:g}, {:.4g} needles per {}", box[0], box[1],
                                   box[2], e.density, volume));
@@ -464,13 +484,13 @@ std::string text_of(const runs::Explanation& e) {
   }
   text += line("start", start_text(e));
   if (e.placing) text += line("placing", placing_text(e));
-  text +=
-      line("mean free time", fmt::format("{:.4g}{}", e.mean_free_time,
-                                         composition.has_width() ? ", that of low density" : ""));
-  if (std::isfinite(e.rate_exact))
-    text +=
-        line("exact rate", fmt::format("{:.6g} per needle and time, in equilibrium of {} needles",
-                                       e.rate_exact, scene.needles.count));
+  text += line(
+      "mean free time",
+      fmt::format("{:.4g}{}{}{}", e.mean_free_time,
+                  composition.has_fixed() ? " of needles that move" : "",
+                  composition.has_width() ? ", that of low density" : "",
+                  composition.has_own_sizes() ? ", of bodies that are as those on average" : ""));
+  if (std::isfinite(e.rate_exact)) text += line("exact rate", exact_rate_text(e, composition));
   text += collision_lines(scene, composition);
   text += line("t_c rule", contact_time_text(scene.collisions));
   if (scene.collisions.sliding) {
@@ -483,7 +503,7 @@ std::string text_of(const runs::Explanation& e) {
   text += gravity_lines(e);
   text += shear_lines(e);
   text += driving_lines(e);
-  text += line("ends", until_text(scene.until));
+  text += line("ends", until_text(scene));
   text += line("expected", expected_text(e));
   text += line("engine", engine_text(e));
   text += line("cores", available_cores().text());

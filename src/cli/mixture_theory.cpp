@@ -9,6 +9,7 @@
 #include "needlework/theory.h"
 #include "src/cli/json.h"
 #include "src/composition/pair_name.h"
+#include "src/runs/exact_rates.h"
 
 namespace needlework::cli {
 namespace {
@@ -22,7 +23,15 @@ struct MixturePredictions {
   theory::MixtureRates rates;  ///< at the start
   std::vector<double> times;
   std::vector<std::vector<theory::Temperatures>> curve;  ///< by time, then species
+  const char* beyond;  ///< what the theory of cooling does not follow: collisions alone are known
+
+  double volume() const { return static_cast<double>(composition.count()) / density; }
 };
+
+// Whether a fluid of these has a pressure that theories know.
+bool has_pressure(const MixturePredictions& p) {
+  return p.composition.has_width() && !p.composition.has_fixed();
+}
 
 // Of rods at low density. Out of equilibrium it would depend on each temperature.
 std::optional<double> pressure_of(const MixturePredictions& p) {
@@ -35,20 +44,29 @@ std::optional<double> pressure_of(const MixturePredictions& p) {
   return p.density * t * (1 + p.density * theory::second_virial(p.composition));
 }
 
+// The same of spheres at every density of a fluid.
+std::optional<double> pressure_of_fluid(const MixturePredictions& p) {
+  if (!p.composition.are_spheres() || !pressure_of(p)) return std::nullopt;
+  return p.density * p.initial.front().t_tr *
+         theory::sphere_compressibility(p.composition, p.volume());
+}
+
 Json virial_json(const MixturePredictions& p) {
   const auto pressure = pressure_of(p);
-  return {{"packing_fraction", number(p.composition.packing_fraction(
-                                   static_cast<double>(p.composition.count()) / p.density))},
-          {"second_virial", number(theory::second_virial(p.composition))},
-          {"pressure", pressure ? number(*pressure) : Json()}};
+  Json out{{"packing_fraction", number(p.composition.packing_fraction(p.volume()))},
+           {"second_virial", number(theory::second_virial(p.composition))},
+           {"pressure", pressure ? number(*pressure) : Json()}};
+  if (const auto of_fluid = pressure_of_fluid(p)) out["pressure_of_fluid"] = number(*of_fluid);
+  return out;
 }
 
 std::string virial_line(const MixturePredictions& p) {
-  if (!p.composition.has_width()) return {};
-  const auto pressure = pressure_of(p);
+  if (!has_pressure(p)) return {};
+  const auto pressure = pressure_of(p), of_fluid = pressure_of_fluid(p);
   return fmt::format(
-      "  second virial coefficient B = {:.8g}{}\n", theory::second_virial(p.composition),
-      pressure ? fmt::format(", pressure n T (1 + n B) = {:.8g} at low density", *pressure) : "");
+      "  second virial coefficient B = {:.8g}{}{}\n", theory::second_virial(p.composition),
+      pressure ? fmt::format(", pressure n T (1 + n B) = {:.8g} at low density", *pressure) : "",
+      of_fluid ? fmt::format(", {:.8g} of the fluid", *of_fluid) : "");
 }
 
 template <class Value>
@@ -76,6 +94,11 @@ Json json_of(const MixturePredictions& p) {
           number(p.rates.collisions[p.composition.pair_index(a, b)]);
     }
   }
+  if (p.beyond) {
+    Json out{{"collisions_per_time", rates}, {"no_course_of", p.beyond}};
+    if (has_pressure(p)) out["rods"] = virial_json(p);
+    return out;
+  }
   const auto all = [&](const std::vector<theory::Temperatures>& each) {
     return mean_of_species(p.composition, each);
   };
@@ -93,7 +116,7 @@ Json json_of(const MixturePredictions& p) {
                      {"t_tr", each_of(p.curve, [&](const auto& each) { return each[n].t_tr; })},
                      {"t_rot", each_of(p.curve, [&](const auto& each) { return each[n].t_rot; })}};
                })}};
-  if (p.composition.has_width()) out["rods"] = virial_json(p);
+  if (has_pressure(p)) out["rods"] = virial_json(p);
   return out;
 }
 
@@ -104,6 +127,11 @@ std::string mixture_table(const MixturePredictions& p) {
       text += fmt::format("  {:<24}{:>14.8g} collisions per time\n", pair_name(p.composition, a, b),
                           p.rates.collisions[p.composition.pair_index(a, b)]);
     }
+  }
+  if (p.beyond) {
+    return text + virial_line(p) +
+           fmt::format("\nno course: the theory of a gas that cools does not apply to {}\n",
+                       p.beyond);
   }
   for (std::size_t n = 0; n < p.composition.size(); ++n) {
     text +=
@@ -139,11 +167,19 @@ std::string mixture_theory_of(const runs::LoadedScene& loaded, const std::vector
                                  composition.size(), theory::most_species_of_theory));
   }
   const double volume = runs::volume_of(loaded.scene);
-  const auto initial = runs::temperatures_by_species(loaded);
-  const MixturePredictions predictions{
-      composition, static_cast<double>(composition.count()) / volume,
-      initial,     theory::mixture_rates(composition, volume, initial),
-      times,       theory::mixture_cooling(composition, volume, initial, times)};
+  MixturePredictions predictions{composition,
+                                 static_cast<double>(composition.count()) / volume,
+                                 runs::temperatures_by_species(loaded),
+                                 {},
+                                 times,
+                                 {},
+                                 runs::beyond_cooling_theory(composition)};
+  if (predictions.beyond) {
+    predictions.rates.collisions = runs::initial_rates_by_pair(loaded);
+  } else {
+    predictions.rates = theory::mixture_rates(composition, volume, predictions.initial);
+    predictions.curve = theory::mixture_cooling(composition, volume, predictions.initial, times);
+  }
   return json ? json_text(json_of(predictions)) + "\n" : mixture_table(predictions);
 }
 

@@ -93,8 +93,8 @@ std::optional<std::vector<theory::Temperatures>> Report::species_theory_at(
   const Composition composition = scene.composition();
   // Theory of rods holds at low density alone, which would look like a deviation of the run.
   if (!runs::has_mixture_theory(composition) || composition.has_width() ||
-      !scene.initial.file.empty() || acts_on_single_needles(scene) ||
-      !(result.initial.energy > 0) || !result.theory_holds) {
+      runs::beyond_cooling_theory(composition) || !scene.initial.file.empty() ||
+      acts_on_single_needles(scene) || !(result.initial.energy > 0) || !result.theory_holds) {
     return std::nullopt;
   }
   if (!mixture_theory) {

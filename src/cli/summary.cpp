@@ -16,6 +16,7 @@
 #include "src/runs/engine_choice.h"
 #include "src/runs/exact_rates.h"
 #include "src/runs/rod_totals.h"
+#include "src/runs/size_text.h"
 #include "src/scene/confinement.h"
 
 namespace needlework::cli {
@@ -86,7 +87,8 @@ std::string energy_lines(const Report& report) {
                    slope(theory_before->energy(), theory->energy(), before->time, last.time));
     }
   } else {
-    text += line("energy", "E = {:.6g} per needle, changed by {:.1e} of it", last.energy,
+    text += line("energy", "E = {:.6g} per needle{}, changed by {:.1e} of it", last.energy,
+                 report.simulation.composition().has_fixed() ? " that moves" : "",
                  last.energy / first.energy - 1);
   }
   if (report.simulation.composition().are_spheres())
@@ -119,6 +121,26 @@ std::string rest_line(std::size_t all, std::size_t shown, const char* order, con
   return line("", "{} more, each with {}: run --json has all, in {}", all - shown, order, key);
 }
 
+// How the bodies of each species differ.
+std::string size_lines(const Report& report) {
+  const Composition& composition = report.simulation.composition();
+  std::string text;
+  for (const Species& species : composition.species()) {
+    for (const std::string& size : runs::size_lines(species)) {
+      const std::string name = composition.is_mixture() ? species.name + ": " : "";
+      text += line(text.empty() ? "bodies" : "", "{}{}", name, size);
+    }
+  }
+  return text;
+}
+
+// Why there is nothing of theory beside a gas that cools.
+std::string theory_line(const Report& report) {
+  const char* beyond = runs::beyond_cooling_theory(report.scene.composition());
+  if (!beyond || runs::starts_in_equilibrium(report.scene)) return {};
+  return line("theory", "none: that of cooling does not apply to {}", beyond);
+}
+
 // Temperatures of each species.
 std::string temperature_lines(const Report& report) {
   const Composition& composition = report.simulation.composition();
@@ -131,9 +153,12 @@ std::string temperature_lines(const Report& report) {
   std::string text;
   for (const std::size_t n : shown) {
     const bool turns = composition[n].turns();
-    text += line(text.empty() ? "species" : "", "{}: {} {}, T_tr = {:.4g}{}", composition[n].name,
-                 counts[n], turns ? "needles" : "spheres", totals[n].t_tr,
-                 turns ? fmt::format(", T_rot = {:.4g}", totals[n].t_rot) : "");
+    text += line(text.empty() ? "species" : "", "{}: {} {}, {}", composition[n].name, counts[n],
+                 turns ? "needles" : "spheres",
+                 composition[n].fixed
+                     ? "fixed"
+                     : fmt::format("T_tr = {:.4g}{}", totals[n].t_tr,
+                                   turns ? fmt::format(", T_rot = {:.4g}", totals[n].t_rot) : ""));
     if (!theory) continue;
     text.pop_back();
     text += fmt::format(", theory {:.4g}, {:.4g}\n", (*theory)[n].t_tr, (*theory)[n].t_rot);
@@ -147,15 +172,19 @@ std::string pair_lines(const Report& report) {
   const auto collisions = report.simulation.collisions_by_pair();
   const std::vector<double> exact = report.pair_rates_exact();
   const double time = report.result.last.time;
-  std::vector<std::string> names;  // in the order of the indices of pairs
+  // In the order of the indices of pairs.
+  std::vector<std::string> names;
+  std::vector<bool> both_fixed;
   for (std::size_t a = 0; a < composition.size(); ++a) {
     for (std::size_t b = a; b < composition.size(); ++b) {
       names.push_back(pair_name(composition, a, b));
+      both_fixed.push_back(composition[a].fixed && composition[b].fixed);
     }
   }
   const std::vector<std::size_t> shown = those_shown(collisions);
   std::string text;
   for (const std::size_t pair : shown) {
+    if (both_fixed[pair]) continue;
     text += line(text.empty() ? "pairs" : "", "{}: {} collisions", names[pair], collisions[pair]);
     if (exact.empty() || !(exact[pair] * time > 0)) continue;
     text.pop_back();
@@ -313,17 +342,23 @@ std::string curve_lines(const Report& report) {
          rows;
 }
 
+// Over which needles means are that are of all.
+const char* those_counted(const Report& report) {
+  return report.simulation.composition().has_fixed() ? ", fixed ones among them" : "";
+}
+
 std::string rate_line(const Report& report) {
   const double rate = report.collision_rate();
   const double exact = report.collision_rate_exact();
   const double error = report.collision_rate_error();
-  if (!std::isfinite(exact)) return line("rate", "{:.5g} per needle and time", rate);
+  const char* of = those_counted(report);
+  if (!std::isfinite(exact)) return line("rate", "{:.5g} per needle and time{}", rate, of);
   if (!(error > 0)) {
-    return line("rate", "{:.5g} per needle and time, exact {:.5g}: ratio {:.4f}", rate, exact,
+    return line("rate", "{:.5g} per needle and time{}, exact {:.5g}: ratio {:.4f}", rate, of, exact,
                 rate / exact);
   }
-  return line("rate", "{:.5g} per needle and time, exact {:.5g}: ratio {:.4f} +- {:.4f}", rate,
-              exact, rate / exact, error / exact);
+  return line("rate", "{:.5g} per needle and time{}, exact {:.5g}: ratio {:.4f} +- {:.4f}", rate,
+              of, exact, rate / exact, error / exact);
 }
 
 // How several threads shared the work; see docs/parallel.md.
@@ -358,6 +393,7 @@ std::string summary_of(const Report& report) {
                box[1], box[2], report.simulation.effects());
   if (const std::string placement = report.simulation.placement(); !placement.empty())
     text += line("start", "{}", placement);
+  text += size_lines(report);
   text += line("end", "{}: time {:.6g}", reason(report.result), last.time);
   if (report.simulation.composition().is_mixture()) ask_theory(report);
   if (report.result.initial.energy > 0) text += energy_lines(report);
@@ -365,8 +401,9 @@ std::string summary_of(const Report& report) {
     text += temperature_lines(report) + pair_lines(report);
   if (runs::starts_in_equilibrium(scene) && last.time > 0) text += rate_line(report);
   if (shows_course(report)) text += curve_lines(report);
-  text += line("collisions", "{}, {:.4g} per needle", last.collisions,
-               last.collisions ? report.collisions_per_needle() : 0.0);
+  text += theory_line(report);
+  text += line("collisions", "{}, {:.4g} per needle{}", last.collisions,
+               last.collisions ? report.collisions_per_needle() : 0.0, those_counted(report));
   if (scene.collisions.tc || scene.collisions.tc_relative) {
     const double share =
         static_cast<double>(last.tc_collisions) / static_cast<double>(last.collisions);

@@ -262,6 +262,12 @@ std::vector<double> times_of_mixture(const TheoryArguments& arguments,
     if (*value) refuse(option->name, **value);
   }
   if (!arguments.taus.empty()) refuse("--tau", arguments.taus.front());
+  if (const char* beyond = runs::beyond_cooling_theory(loaded.scene.composition())) {
+    if (arguments.times.empty()) return {};
+    throw std::invalid_argument(fmt::format(
+        "--time {}: expected none, as the theory of a gas that cools does not apply to {}",
+        arguments.times.front(), beyond));
+  }
   std::vector<double> times;
   for (const std::string& time : arguments.times) times.push_back(number_of(time_option, time));
   return times.empty() ? usual_times(runs::Explanation(loaded)) : times;
@@ -299,6 +305,10 @@ Simulated mixture_of(const TheoryArguments& arguments, const runs::LoadedScene& 
     throw std::invalid_argument(
         fmt::format("--boltzmann {}: expected a scene of thin needles, not of rods of finite width",
                     arguments.boltzmann));
+  }
+  if (const char* beyond = runs::beyond_cooling_theory(composition)) {
+    throw std::invalid_argument(
+        fmt::format("--boltzmann {}: expected a scene without {}", arguments.boltzmann, beyond));
   }
   if (!runs::has_mixture_theory(composition)) {
     throw InputError(fmt::format("{} species: expected at most {}, which theory follows",

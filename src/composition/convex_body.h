@@ -27,9 +27,24 @@ inline void add(ConvexBody& fluid, const ConvexBody& each, double density) {
   fluid.volume += density * each.volume;
 }
 
+/// The same of bodies that have numbers of their own, the mean over each two of them. [L^3]
+inline double mean_excluded_volume(const Species& a, const Species& b) {
+  constexpr double pi = std::numbers::pi;
+  const auto thick = [](const Species& s) {  // the mean of D^2 L
+    return 4 / pi * s.volume() - 2.0 / 3 * s.cube();
+  };
+  const auto sides = [&](const Species& s, const Species& other) {
+    return thick(s) + 2 * s.product() * other.diameter + s.length * other.square();
+  };
+  return 0.25 * pi * (a.product() * b.length + a.length * b.product()) +
+         0.25 * pi * (sides(a, b) + sides(b, a)) +
+         pi / 6 * (a.cube() + 3 * (a.square() * b.diameter + a.diameter * b.square()) + b.cube());
+}
+
 /// Volume from which the centre of a rod is excluded by another one, averaged over their
 /// directions; 0 for needles. [L^3]
 inline double excluded_volume(const Species& a, const Species& b) {
+  if (a.sizes || b.sizes) return mean_excluded_volume(a, b);
   constexpr double pi = std::numbers::pi;
   const double width = 0.5 * (a.diameter + b.diameter);
   return 0.5 * pi * width * a.length * b.length +

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "needlework/composition.h"
@@ -19,52 +20,93 @@ struct BodyNumbers {
   friend bool operator==(const BodyNumbers&, const BodyNumbers&) = default;
 };
 
+/// Adds up one number of bodies, none of them below 0.
+class SpreadSums {
+ public:
+  void add(double x) {
+    const bool first = count_++ == 0;
+    if (first) unit_ = x > 0 ? x : 1;
+    least_ = first ? x : std::min(least_, x);
+    greatest_ = std::max(greatest_, x);
+    sum_.add(x);
+    // Apart from the first one, so that numbers close to each other keep their digits.
+    const double apart = x / unit_ - 1;
+    apart_.add(apart);
+    squares_.add(apart * apart);
+  }
+  double mean() const { return sum_.value() / static_cast<double>(count_); }
+  /// Zeros of no numbers.
+  Spread spread() const {
+    if (count_ == 0) return {};
+    if (least_ == greatest_) return {mean(), 0, least_, greatest_};
+    const double count = static_cast<double>(count_), apart = apart_.value() / count;
+    const double variance = std::max(0.0, squares_.value() / count - apart * apart);
+    return {mean(), std::sqrt(variance) / (1 + apart), least_, greatest_};
+  }
+
+ private:
+  CompensatedSum sum_, apart_, squares_;
+  double unit_ = 1, least_ = 0, greatest_ = 0;
+  std::size_t count_ = 0;
+};
+
 /// Adds bodies up. Trajectories may depend on the means, so bodies are always added in order of id.
 class SizesOfBodies {
  public:
   void add(const BodyNumbers& body) {
-    const double volume = Species{.length = body.length, .diameter = body.diameter}.volume();
-    const double extent = body.length + body.diameter;
-    const double square = body.diameter * body.diameter;
-    const double terms[] = {
-        body.length, body.diameter,          body.mass, body.inertia, body.length * body.diameter,
-        square,      square * body.diameter, volume};
-    for (std::size_t n = 0; n < number_of_sums; ++n) sums_[n].add(terms[n]);
-    const bool first = count_++ == 0;
-    const auto least = [&](double& to, double by) { to = first ? by : std::min(to, by); };
-    const auto greatest = [](double& to, double by) { to = std::max(to, by); };
-    least(sizes_.least_extent, extent);
-    least(sizes_.least_diameter, body.diameter);
-    least(sizes_.least_mass, body.mass);
-    least(sizes_.least_inertia, body.inertia);
-    greatest(sizes_.greatest_extent, extent);
-    greatest(sizes_.greatest_length, body.length);
-    greatest(sizes_.greatest_diameter, body.diameter);
+    const double extent = body.length + body.diameter, square = body.diameter * body.diameter;
+    sizes_.least_extent = count_++ == 0 ? extent : std::min(sizes_.least_extent, extent);
+    sizes_.greatest_extent = std::max(sizes_.greatest_extent, extent);
+    length_.add(body.length);
+    diameter_.add(body.diameter);
+    mass_.add(body.mass);
+    inertia_.add(body.inertia);
+    if (body.length > 0) k_.add(body.mass * (body.length * body.length) / (2 * body.inertia));
+    product_.add(body.length * body.diameter);
+    square_.add(square);
+    cube_.add(square * body.diameter);
+    volume_.add(Species{.length = body.length, .diameter = body.diameter}.volume());
   }
 
   /// The species made of the bodies added, of which there is at least one.
   Species complete(Species species) const {
-    species.length = mean(0);
-    species.diameter = mean(1);
-    species.mass = mean(2);
+    Sizes sizes = sizes_;
+    sizes.product = mean_of(product_);
+    sizes.square = mean_of(square_);
+    sizes.cube = mean_of(cube_);
+    sizes.volume = mean_of(volume_);
+    sizes.length = length_.spread();
+    sizes.diameter = diameter_.spread();
+    sizes.mass = mass_.spread();
+    sizes.inertia = inertia_.spread();
+    sizes.k = k_of(species.k);
+    species.length = sizes.length.mean;
+    species.diameter = sizes.diameter.mean;
+    species.mass = sizes.mass.mean;
     if (species.turns())
-      species.k = species.mass * (species.length * species.length) / (2 * mean(3));
+      species.k = species.mass * (species.length * species.length) / (2 * sizes.inertia.mean);
     species.given_inertia.reset();
-    species.sizes = sizes_;
-    species.sizes->product = mean(4);
-    species.sizes->square = mean(5);
-    species.sizes->cube = mean(6);
-    species.sizes->volume = mean(7);
+    species.sizes = sizes;
     return species;
   }
   std::size_t count() const { return count_; }
 
  private:
-  static constexpr std::size_t number_of_sums = 8;
-  double mean(std::size_t n) const { return sums_[n].value() / static_cast<double>(count_); }
+  double mean_of(const CompensatedSum& sum) const {
+    return sum.value() / static_cast<double>(count_);
+  }
+  // As given, where that of each body is so but for rounding.
+  Spread k_of(double given) const {
+    constexpr double rounding = 1e-12;
+    const Spread k = k_.spread();
+    if (!(k.greatest - k.least <= rounding * k.greatest)) return k;
+    const double one = std::abs(given - k.mean) <= rounding * given ? given : k.mean;
+    return {one, 0, one, one};
+  }
 
   Sizes sizes_;
-  CompensatedSum sums_[number_of_sums];
+  SpreadSums length_, diameter_, mass_, inertia_, k_;
+  CompensatedSum product_, square_, cube_, volume_;
   std::size_t count_ = 0;
 };
 

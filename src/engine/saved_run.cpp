@@ -67,10 +67,10 @@ void require_body(const BodyNumbers& body, const Species& species) {
   const Sizes& sizes = *species.sizes;
   const double extent = body.length + body.diameter;
   require(extent >= sizes.least_extent && extent <= sizes.greatest_extent);
-  require(body.length >= 0 && body.length <= sizes.greatest_length);
-  require(body.diameter >= sizes.least_diameter && body.diameter <= sizes.greatest_diameter);
-  require(body.mass >= sizes.least_mass && std::isfinite(body.mass));
-  require(body.inertia >= sizes.least_inertia && std::isfinite(body.inertia));
+  require(body.length >= 0 && body.length <= sizes.length.greatest);
+  require(body.diameter >= sizes.diameter.least && body.diameter <= sizes.diameter.greatest);
+  require(body.mass >= sizes.mass.least && std::isfinite(body.mass));
+  require(body.inertia >= sizes.inertia.least && std::isfinite(body.inertia));
 }
 
 // The parameters on which the trajectory depends.

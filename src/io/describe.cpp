@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -56,6 +58,19 @@ std::string format_ranges(const Element& element) {
          format_range("step", element.steps().value_or(std::vector<std::int64_t>()));
 }
 
+// How numbers differ; nothing of one number.
+std::string format_spread(const char* name, const std::vector<double>& values) {
+  const auto [least, greatest] = std::ranges::minmax(values);
+  if (std::isinf(least)) return "fixed";
+  if (!(least < greatest)) return {};
+  const double count = static_cast<double>(values.size());
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
+  double squares = 0;
+  for (const double value : values) squares += (value / mean - 1) * (value / mean - 1);
+  return fmt::format("{} of mean {:.4g}, width {:.3g}, from {:.3g} to {:.3g}", name, mean,
+                     std::sqrt(squares / count), least, greatest);
+}
+
 class Overview {
  public:
   explicit Overview(const std::string& path) : source_(path) {}
@@ -71,6 +86,8 @@ class Overview {
 
   void add_origin();
   void add_particles();
+  void add_sizes(const std::string& group);
+  std::vector<double> numbers(const std::string& path) const;
   bool has_rows(const std::string& group) const;
   void add_rows(const std::string& group, const char* kind);
   void add_events();
@@ -142,6 +159,49 @@ void Overview::add_particles() {
     add("{}/{}: {}, {}{}", root, name, format_count(position.shape()[1], "particle"),
         format_count(position.rows(), "frame"), range);
     ranges_shown_.insert(range);
+    add_sizes(root + "/" + name + "/");
+  }
+}
+
+// Of a dataset with one number for each particle, or none.
+std::vector<double> Overview::numbers(const std::string& path) const {
+  const std::string place = source_.place(path);
+  if (!hdf5::is_dataset(source_.get(), path, place)) return {};
+  const std::string type =
+      hdf5::type_name(hdf5::open_dataset(source_.get(), path, place).get(), place);
+  if (type == "string" || type == "other") return {};
+  const Element element(source_, path);
+  return element.shape().size() == 1 ? element.read<double>({}) : std::vector<double>();
+}
+
+// In what particles differ within a species, and which are fixed.
+void Overview::add_sizes(const std::string& group) {
+  std::vector<double> species = numbers(group + "species");
+  const std::vector<double> masses = numbers(group + "mass");
+  species.resize(masses.size());
+  std::map<double, std::string> lines;
+  for (const char* name : {"length", "diameter", "mass"}) {
+    const std::vector<double> all = numbers(group + name);
+    if (all.size() != masses.size()) continue;
+    std::map<double, std::vector<double>> by_species;
+    for (std::size_t i = 0; i < all.size(); ++i) by_species[species[i]].push_back(all[i]);
+    for (const auto& [index, of] : by_species) {
+      if (const std::string text = format_spread(name, of); !text.empty()) {
+        std::string& line = lines[index];
+        line += (line.empty() ? "" : "; ") + text;
+      }
+    }
+  }
+  const std::string path = "/parameters/species";
+  std::vector<std::string> names;
+  if (hdf5::is_dataset(source_.get(), path, source_.place(path))) {
+    const Handle dataset = hdf5::open_dataset(source_.get(), path, source_.place(path));
+    if (hdf5::type_name(dataset.get(), source_.place(path)) == "string")
+      names = hdf5::read_strings(dataset.get(), source_.place(path));
+  }
+  for (const auto& [index, line] : lines) {
+    const bool is_named = index >= 0 && index < static_cast<double>(names.size());
+    add("  {}{}", is_named ? names[static_cast<std::size_t>(index)] + ": " : "", line);
   }
 }
 

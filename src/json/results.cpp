@@ -7,6 +7,57 @@ namespace needlework::json {
 
 using Json = nlohmann::ordered_json;
 
+namespace {
+
+Json drawn_json(const Distribution& drawn) {
+  Json out{{"distribution", name_of(drawn.shape)}};
+  for (const auto& [name, value] : {std::pair("mean", drawn.mean),
+                                    {"width", drawn.width},
+                                    {"min", drawn.least},
+                                    {"max", drawn.greatest},
+                                    {"exponent", drawn.exponent}}) {
+    if (value) out[name] = *value;
+  }
+  return out;
+}
+
+Json spread_json(const Spread& spread, Json drawn) {
+  return {{"mean", spread.mean},
+          {"width", spread.width},
+          {"least", spread.least},
+          {"greatest", spread.greatest},
+          {"drawn", std::move(drawn)}};
+}
+
+}  // namespace
+
+Json k_of(const Species& species) {
+  if (species.fixed) return nullptr;
+  return species.sizes && species.turns() ? species.sizes->k.mean : species.k;
+}
+
+void add_sizes(Json& json, const Species& species) {
+  if (species.fixed) json["fixed"] = true;
+  if (!species.sizes) return;
+  const Sizes& sizes = *species.sizes;
+  const DrawnSizes& drawn = species.drawn;
+  Json& all = json["sizes"] = Json::object();
+  const auto add = [&](const char* name, const Spread& spread,
+                       const std::optional<Distribution>& its, const char* rule = "",
+                       const std::optional<double>& number = {}) {
+    if (spread.is_one() && !its && !number) return;
+    all[name] = spread_json(spread, number ? Json{{rule, *number}}
+                                    : its  ? drawn_json(*its)
+                                           : Json());
+  };
+  add("length", sizes.length, drawn.length);
+  add("diameter", sizes.diameter, drawn.diameter, "aspect", drawn.aspect);
+  if (species.fixed) return;
+  add("mass", sizes.mass, drawn.mass, "density", drawn.density);
+  add("k", sizes.k, drawn.k);
+  add("inertia", sizes.inertia, drawn.inertia);
+}
+
 void add_species(Json& json, const Simulation& simulation) {
   const Composition& composition = simulation.composition();
   const auto totals = simulation.species_totals();
@@ -15,6 +66,7 @@ void add_species(Json& json, const Simulation& simulation) {
   for (std::size_t a = 0; a < composition.size(); ++a) {
     Json& each = species.emplace_back(Json{{"name", composition[a].name}});
     add_numbers(each, totals[a]);
+    add_sizes(each, composition[a]);
     for (std::size_t b = a; b < composition.size(); ++b) {
       by_pair[pair_name(composition, a, b)] = collisions[composition.pair_index(a, b)];
     }

@@ -24,6 +24,14 @@ void add_numbers(nlohmann::ordered_json& json, const Sums& sums) {
   });
 }
 
+/// k of all bodies of a species, the mean where they differ; null of fixed ones.
+nlohmann::ordered_json k_of(const Species& species);
+
+/// Adds to a species what makes it other than one of alike bodies that move: "fixed", true, and
+/// "sizes", {length: {mean, width, least, greatest, drawn}, ...}, the numbers that differ as they
+/// are, and how they are drawn.
+void add_sizes(nlohmann::ordered_json& json, const Species& species);
+
 /// Adds "species", [{name, ...}] at the present time, and "collisions_by_pair", {"a-b": n} since
 /// the start, both in the order of the scene.
 void add_species(nlohmann::ordered_json& json, const Simulation& simulation);

@@ -5,14 +5,21 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "src/observe/described_fields.h"
 
 namespace needlework::observe {
 
-SnapshotsBySpecies::SnapshotsBySpecies(const GasSetting& gas) {
-  for (std::size_t n = 0; n < gas.composition.size(); ++n) {
-    parts_.push_back({.gas = gas.of_species(n),
+std::vector<GasSetting> settings_of_species(const GasSetting& gas) {
+  std::vector<GasSetting> out;
+  for (std::size_t n = 0; n < gas.composition.size(); ++n) out.push_back(gas.of_species(n));
+  return out;
+}
+
+SnapshotsOfParts::SnapshotsOfParts(std::vector<GasSetting> parts) {
+  for (GasSetting& gas : parts) {
+    parts_.push_back({.gas = std::move(gas),
                       .state = {},
                       .totals = {},
                       .species = {},
@@ -20,7 +27,7 @@ SnapshotsBySpecies::SnapshotsBySpecies(const GasSetting& gas) {
   }
 }
 
-void SnapshotsBySpecies::take(const Snapshot& all) {
+void SnapshotsOfParts::begin(const Snapshot& all, std::span<const SpeciesTotals> totals) {
   const State& state = all.state;
   for (std::size_t n = 0; n < parts_.size(); ++n) {
     Part& part = parts_[n];
@@ -30,33 +37,38 @@ void SnapshotsBySpecies::take(const Snapshot& all) {
     part.state.shear_rate = state.shear_rate;
     part.state.resize(0);
     part.state.peculiar_x.clear();
-    const SpeciesTotals& sums = all.species.totals[n];
+    part.state.own_bodies = {};
+    const SpeciesTotals& sums = totals[n];
     part.totals = {.time = all.totals.time, .t_tr = sums.t_tr, .t_rot = sums.t_rot};
     part.totals.energy = 1.5 * sums.t_tr + sums.t_rot;
     part.species.totals = {sums};
     part.snapshot.emplace(part.gas, part.state, part.totals, part.species);
   }
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    State& to = parts_[state.species[i]].state;
-    to.position.push_back(state.position[i]);
-    to.velocity.push_back(state.velocity[i]);
-    to.orientation.push_back(state.orientation[i]);
-    to.angular_velocity.push_back(state.angular_velocity[i]);
-    if (!state.peculiar_x.empty()) to.peculiar_x.push_back(state.peculiar_x[i]);
-    if (!state.image.empty()) to.image.push_back(state.image[i]);
-    if (!state.id.empty()) to.id.push_back(state.id[i]);
-  }
 }
 
-BySpecies::BySpecies(const GasSetting& gas, ObservablePointer (*make)(const GasSetting&),
-                     const SnapshotsBySpecies& parts)
-    : parts_(parts) {
-  for (std::size_t n = 0; n < gas.composition.size(); ++n) {
-    members_.push_back(make(gas.of_species(n)));
-  }
+void SnapshotsOfParts::add(const State& from, std::size_t i, State& to) {
+  to.position.push_back(from.position[i]);
+  to.velocity.push_back(from.velocity[i]);
+  to.orientation.push_back(from.orientation[i]);
+  to.angular_velocity.push_back(from.angular_velocity[i]);
+  if (!from.peculiar_x.empty()) to.peculiar_x.push_back(from.peculiar_x[i]);
+  if (!from.image.empty()) to.image.push_back(from.image[i]);
+  if (!from.id.empty()) to.id.push_back(from.id[i]);
+  const OwnBodies& own = from.own_bodies;
+  if (own.empty()) return;
+  to.own_bodies.length.push_back(own.length[i]);
+  to.own_bodies.diameter.push_back(own.diameter[i]);
+  to.own_bodies.mass.push_back(own.mass[i]);
+  to.own_bodies.inertia.push_back(own.inertia[i]);
 }
 
-std::vector<SeriesField> BySpecies::fields() const {
+ByPart::ByPart(std::vector<SeriesField::Extent> extents,
+               ObservablePointer (*make)(const GasSetting&), const SnapshotsOfParts& parts)
+    : parts_(parts), extents_(std::move(extents)) {
+  for (std::size_t n = 0; n < parts.size(); ++n) members_.push_back(make(parts.gas(n)));
+}
+
+std::vector<SeriesField> ByPart::fields() const {
   std::vector<SeriesField> out = members_.front()->fields();
   for (std::size_t n = 1; n < members_.size(); ++n) {
     const std::vector<SeriesField> more = members_[n]->fields();
@@ -74,12 +86,12 @@ std::vector<SeriesField> BySpecies::fields() const {
         continue;
       }
     }
-    field.shape.insert(field.shape.begin(), {"species", members_.size()});
+    field.shape.insert(field.shape.begin(), extents_.begin(), extents_.end());
   }
   return out;
 }
 
-void BySpecies::sample(const Snapshot&, Row& row) {
+void ByPart::sample(const Snapshot&, Row& row) {
   std::vector<Row> rows(members_.size());
   for (std::size_t n = 0; n < members_.size(); ++n) members_[n]->sample(parts_[n], rows[n]);
   std::size_t begin = 0;
@@ -92,11 +104,11 @@ void BySpecies::sample(const Snapshot&, Row& row) {
   }
 }
 
-void BySpecies::velocities_set() {
+void ByPart::velocities_set() {
   for (const ObservablePointer& member : members_) member->velocities_set();
 }
 
-void BySpecies::transfer(Archive& archive) {
+void ByPart::transfer(Archive& archive) {
   for (const ObservablePointer& member : members_) member->transfer(archive);
 }
 

@@ -1,5 +1,6 @@
 // The centre of mass along the axes with walls: sum of m r / sum of m, r from the low edge of the
-// box, and its velocity; in mixtures of each species, too. Along periodic axes there is none.
+// box, and its velocity, of the needles that move; in mixtures of each species, too. Along periodic
+// axes there is none.
 #include "src/observe/registry.h"
 
 namespace needlework::observe {
@@ -37,10 +38,12 @@ class CentreOfMass : public Observable {
     const std::size_t kinds = gas_.composition.size(), axes = gas_.wall_slabs.size();
     // Of each species, then of all; without needles NaN.
     std::vector<double> mass(kinds + 1), position((kinds + 1) * axes), velocity((kinds + 1) * axes);
+    const Weights& weights = now.weights();
     for (std::size_t i = 0; i < state.size(); ++i) {
       const std::size_t species = state.species.empty() ? 0 : state.species[i];
-      const double m = gas_.composition[species].mass;
+      const double m = gas_.composition[species].mass * weights.mass(i);
       for (const std::size_t of : {species, kinds}) {
+        if (of == kinds && gas_.composition[species].fixed) continue;
         mass[of] += m;
         for (std::size_t n = 0; n < axes; ++n) {
           const std::size_t axis = gas_.wall_slabs[n].axis;

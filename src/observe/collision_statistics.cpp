@@ -13,6 +13,9 @@
 //                    I of each; rods of finite width: times |u x n|^2, n along the impulse); in
 //                    equilibrium its density is x exp(-x^2 / 2)
 //
+// Lengths, masses and moments of inertia are those of the two needles, where they differ within a
+// species. A fixed one has T = 0.
+//
 // With several species each is counted for each two of them; a collision with a needle of any
 // species ends a chain. Values outside the borders are left out.
 #include <algorithm>
@@ -45,11 +48,11 @@ void transfer(Archive& archive, Chain& chain) { archive(chain.partner, chain.len
 
 /// What the rotation of one of the bodies adds to the variance of V_n. Rods of finite width are not
 /// normal to the impulse at their caps; spheres do not turn.
-double turning(const Species& species, double t_rot, double arm,
+double turning(const BodyNumbers& body, double t_rot, double arm,
                const std::array<double, 3>& director, const std::array<double, 3>& impulse) {
-  if (!species.turns()) return 0;
-  const double square = t_rot * arm * arm / species.inertia();
-  if (species.diameter == 0) return square;
+  if (!(body.length > 0)) return 0;
+  const double square = t_rot * arm * arm / body.inertia;
+  if (body.diameter == 0) return square;
   const double along = dot(director, impulse), size = dot(impulse, impulse);
   return size > 0 ? square * (1 - along * along / size) : square;
 }
@@ -138,7 +141,8 @@ class CollisionStatistics : public Observable {
 
   void collision(const Collision& c) override {
     const std::size_t a = gas_.species_by_id(c.first), b = gas_.species_by_id(c.second);
-    const Species &first = gas_.composition[a], &second = gas_.composition[b];
+    const BodyNumbers first = gas_.species_by_id.body(c.first, gas_.composition[a]);
+    const BodyNumbers second = gas_.species_by_id.body(c.second, gas_.composition[b]);
     Counts& counts = counts_[gas_.composition.pair_index(a, b)];
     ++counts.collisions;
     follow_chains(c.first, c.second, counts);

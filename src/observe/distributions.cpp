@@ -2,7 +2,7 @@
 //
 //   needles_in_cell  number of cells of the grid with n needles, n = 0, 1, ... up to ten times the
 //                    mean; a Poisson law for independent positions
-//   velocity         components of v along x, y and z, in units of sqrt(T_tr / m)
+//   velocity         components of v along x, y and z, in units of sqrt(T_tr / m), m its own mass
 //   energy_tr        m v^2 / 2 of each needle, in units of T_tr; for Gaussian velocities its
 //                    density is 2 sqrt(e / pi) exp(-e)
 //   energy_rot       I w^2 / 2 of each needle, in units of T_rot; for Gaussian ones exp(-e)
@@ -76,12 +76,14 @@ class Distributions : public Observable {
     energy_tr_.clear();
     energy_rot_.clear();
     // Divisions by 0 give NaN or infinity, which the histograms leave out.
+    const Weights& weights = now.weights();
     for (std::size_t i = 0; i < now.state.size(); ++i) {
       const Vector& v = now.state.velocity[i];
       const Vector& w = now.state.angular_velocity[i];
-      for (std::size_t axis = 0; axis < 3; ++axis) velocity_[axis].add(v[axis] / speed);
-      energy_tr_.add(gas_.mass * dot(v, v) / 2 / now.totals.t_tr);
-      energy_rot_.add(gas_.inertia * dot(w, w) / 2 / now.totals.t_rot);
+      const double mass = weights.mass(i), root = std::sqrt(mass);
+      for (std::size_t axis = 0; axis < 3; ++axis) velocity_[axis].add(root * v[axis] / speed);
+      energy_tr_.add(gas_.mass * mass * dot(v, v) / 2 / now.totals.t_tr);
+      energy_rot_.add(gas_.inertia * weights.inertia(i) * dot(w, w) / 2 / now.totals.t_rot);
     }
     for (const Histogram& histogram : velocity_) row.put_all(histogram.counts());
     row.put_all(energy_tr_.counts());

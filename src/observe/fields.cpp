@@ -1,8 +1,8 @@
 // Fields on the grid of output.grid. In a cell of volume V_c with n needles:
 //
 //   density      n / V_c
-//   flow         U = mean of v
-//   spin         mean of the angular velocity w
+//   flow         U = mean of v, by mass
+//   spin         mean of the angular velocity w, by moment of inertia
 //   thermal_tr   mean of m |v - U|^2 / 2, which is the mean of m v^2 / 2 less m U^2 / 2
 //   thermal_rot  mean of I |w - spin|^2 / 2
 //

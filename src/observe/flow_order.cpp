@@ -38,11 +38,11 @@ class FlowOrder : public Observable {
                         static_cast<double>(cells.count.size());
     double flow = 0, thermal = 0, spin = 0, thermal_rot = 0, variance = 0;
     for (std::size_t cell = 0; cell < cells.count.size(); ++cell) {
-      // The cells' volume and the factors m/2 and I/2 cancel.
+      // The cells' volume and the factors m/2 and I/2 of the species cancel.
       const double count = cells.count[cell];
-      flow += count * dot(cells.flow[cell], cells.flow[cell]);
+      flow += cells.mass[cell] * dot(cells.flow[cell], cells.flow[cell]);
       thermal += count * cells.flow_v2[cell];
-      spin += count * dot(cells.spin[cell], cells.spin[cell]);
+      spin += cells.inertia[cell] * dot(cells.spin[cell], cells.spin[cell]);
       thermal_rot += count * cells.spin_w2[cell];
       variance += (count - mean) * (count - mean);
     }

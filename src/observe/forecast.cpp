@@ -99,6 +99,22 @@ std::optional<Forecast> at_rest(const Scene::Until& until) {
 
 }  // namespace
 
+std::optional<Forecast> forecast_at_rate(double rate, const Scene::Until& until) {
+  if (until.energy_ratio && *until.energy_ratio >= 1) return Forecast{.stop = Stop::energy};
+  if (!(rate > 0)) return at_rest(until);
+  const double to_collisions = until.collisions_per_needle
+                                   ? *until.collisions_per_needle / rate
+                                   : std::numeric_limits<double>::infinity();
+  if (end_of(until) <= to_collisions) {
+    if (!until.time) return std::nullopt;
+    return Forecast{
+        .stop = Stop::time, .time = *until.time, .collisions_per_needle = rate * *until.time};
+  }
+  return Forecast{.stop = Stop::collisions,
+                  .time = to_collisions,
+                  .collisions_per_needle = *until.collisions_per_needle};
+}
+
 double theory_time_scale(double density) {
   return 2.0 / 3.0 * std::sqrt(std::numbers::pi) * density;
 }

@@ -19,6 +19,10 @@ struct Forecast {
   double energy_ratio = 1;           ///< E / E(0)
 };
 
+/// Of a gas that keeps its energy and has so many collisions per needle and time; empty if no
+/// condition but wall_s is ever met.
+std::optional<Forecast> forecast_at_rate(double rate, const Scene::Until& until);
+
 /// Ratio tau / t = (2/3) sqrt(pi) n between the theory's time and the engine's.
 double theory_time_scale(double density);
 

@@ -35,9 +35,11 @@ std::array<int, 3> default_cells(const Vector& box, std::size_t count) {
   return out;
 }
 
-CellMeans means_in_cells(const Grid& grid, const State& state) {
+CellMeans means_in_cells(const Grid& grid, const State& state, const Weights& weights) {
   const std::size_t cells = grid.size();
   CellMeans out{.count = std::vector<double>(cells),
+                .mass = std::vector<double>(cells),
+                .inertia = std::vector<double>(cells),
                 .flow = std::vector<Vector>(cells),
                 .spin = std::vector<Vector>(cells),
                 .flow_v2 = std::vector<double>(cells),
@@ -48,16 +50,19 @@ CellMeans means_in_cells(const Grid& grid, const State& state) {
     const std::size_t cell = cell_of[i] = is_inside ? grid.cell_of(state.position[i]) : cells;
     if (!is_inside) continue;
     ++out.count[cell];
+    const double mass = weights.mass(i), inertia = weights.inertia(i);
+    out.mass[cell] += mass;
+    out.inertia[cell] += inertia;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      out.flow[cell][axis] += state.velocity[i][axis];
-      out.spin[cell][axis] += state.angular_velocity[i][axis];
+      out.flow[cell][axis] += mass * state.velocity[i][axis];
+      out.spin[cell][axis] += inertia * state.angular_velocity[i][axis];
     }
   }
   for (std::size_t cell = 0; cell < cells; ++cell) {
-    const double count = std::max(out.count[cell], 1.0);
+    if (out.count[cell] == 0) continue;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      out.flow[cell][axis] /= count;
-      out.spin[cell][axis] /= count;
+      out.flow[cell][axis] /= out.mass[cell];
+      out.spin[cell][axis] /= out.inertia[cell];
     }
   }
   for (std::size_t i = 0; i < state.size(); ++i) {
@@ -65,8 +70,8 @@ CellMeans means_in_cells(const Grid& grid, const State& state) {
     if (cell == cells) continue;
     const Vector v = minus(state.velocity[i], out.flow[cell]);
     const Vector w = minus(state.angular_velocity[i], out.spin[cell]);
-    out.flow_v2[cell] += dot(v, v);
-    out.spin_w2[cell] += dot(w, w);
+    out.flow_v2[cell] += weights.mass(i) * dot(v, v);
+    out.spin_w2[cell] += weights.inertia(i) * dot(w, w);
   }
   for (std::size_t cell = 0; cell < cells; ++cell) {
     const double count = std::max(out.count[cell], 1.0);

@@ -35,18 +35,28 @@ class Grid {
 /// needles, which is what the definition of the order of the flow is meant for; at most 100.
 std::array<int, 3> default_cells(const Vector& box, std::size_t count);
 
+/// Masses and moments of inertia of the needles of a state in those of their species; empty where
+/// all are 1. Fixed needles, which have no velocities to weigh, have 1. [1]
+struct Weights {
+  std::vector<double> masses = {}, inertias = {};
+
+  double mass(std::size_t i) const { return masses.empty() ? 1 : masses[i]; }
+  double inertia(std::size_t i) const { return inertias.empty() ? 1 : inertias[i]; }
+};
+
 /// What is in each cell. A cell without needles has zeros; needles outside the box are in none.
 struct CellMeans {
-  std::vector<double> count;    ///< number of needles
-  std::vector<Vector> flow;     ///< U, mean velocity
-  std::vector<Vector> spin;     ///< mean angular velocity
-  std::vector<double> flow_v2;  ///< mean of |v - U|^2
-  std::vector<double> spin_w2;  ///< mean of |w - spin|^2
+  std::vector<double> count;          ///< number of needles
+  std::vector<double> mass, inertia;  ///< of them, in those of their species
+  std::vector<Vector> flow;           ///< U, mean velocity by mass
+  std::vector<Vector> spin;           ///< mean angular velocity by moment of inertia
+  std::vector<double> flow_v2;        ///< mean of |v - U|^2, each times its mass
+  std::vector<double> spin_w2;        ///< mean of |w - spin|^2, each times its moment of inertia
 };
 
 /// Sums in the order of the needles in the state, so that they depend on nothing else. Deviations
 /// are summed after the means are known, so that they are never negative, and exactly 0 where all
 /// velocities are equal and have few digits.
-CellMeans means_in_cells(const Grid& grid, const State& state);
+CellMeans means_in_cells(const Grid& grid, const State& state, const Weights& weights);
 
 }  // namespace needlework::observe

@@ -18,31 +18,49 @@
 #include "needlework/totals.h"
 #include "src/archive/archive.h"
 #include "src/box/box.h"
+#include "src/composition/sizes.h"
 #include "src/observe/grid.h"
 #include "src/observe/vector.h"
 #include "src/observe/wall_slabs.h"
 
 namespace needlework::observe {
 
-/// Which species each needle is of, by its id.
+/// Which species each needle is of, by its id, and what it is where those of a species differ.
 class SpeciesById {
  public:
   SpeciesById() = default;
   /// Of needles in order of id; no species: all are of the first.
-  SpeciesById(std::vector<std::uint32_t> ids, std::vector<SpeciesIndex> species)
-      : ids_(std::move(ids)), species_(std::move(species)) {}
+  SpeciesById(std::vector<std::uint32_t> ids, std::vector<SpeciesIndex> species, OwnBodies own = {})
+      : ids_(std::move(ids)), species_(std::move(species)), own_(std::move(own)) {}
 
   /// 0 for an id that is none.
   std::size_t operator()(std::uint32_t id) const {
-    if (species_.empty()) return 0;
+    return species_.empty() ? 0 : species_of_row(row(id));
+  }
+  /// Its numbers, those of this species where it has none of its own.
+  BodyNumbers body(std::uint32_t id, const Species& species) const {
+    const std::size_t i = own_.empty() ? size() : row(id);
+    if (i == size()) return {species.length, species.diameter, species.mass, species.inertia()};
+    return {own_.length[i], own_.diameter[i], own_.mass[i], own_.inertia[i]};
+  }
+
+  std::size_t size() const { return ids_.size(); }
+  /// In order of id; size() for an id that is none.
+  std::size_t row(std::uint32_t id) const {
     const auto found = std::lower_bound(ids_.begin(), ids_.end(), id);
     const bool is_there = found != ids_.end() && *found == id;
-    return is_there ? species_[static_cast<std::size_t>(found - ids_.begin())] : 0;
+    return is_there ? static_cast<std::size_t>(found - ids_.begin()) : size();
   }
+  std::size_t species_of_row(std::size_t row) const {
+    return row < species_.size() ? species_[row] : 0;
+  }
+  /// Columns of rows, or empty.
+  const OwnBodies& own() const { return own_; }
 
  private:
   std::vector<std::uint32_t> ids_;
   std::vector<SpeciesIndex> species_;
+  OwnBodies own_;
 };
 
 /// What is known of a gas before it is sampled. An observable of single needles is made for each
@@ -51,10 +69,11 @@ struct GasSetting {
   std::size_t count = 0;  ///< of the needles that the observable is given
   std::size_t all = 0;    ///< of all species
   Box box;
-  double length = 1, mass = 1;  ///< of several species the longest length, and no mass
-  double inertia = 1;           ///< I = m L^2 / (2 k)
-  bool is_sheared = false;      ///< rows of boxes slide, if only by what they have at the start
-  double shear_rate = 0;        ///< of the uniform flow [1 / time]
+  double length = 1;        ///< the longest extent [L]
+  double mass = 1;          ///< of one species the mean, of several none
+  double inertia = 1;       ///< I = m L^2 / (2 k)
+  bool is_sheared = false;  ///< rows of boxes slide, if only by what they have at the start
+  double shear_rate = 0;    ///< of the uniform flow [1 / time]
   std::array<int, 3> cells{1, 1, 1};
   std::vector<Slabs> wall_slabs;  ///< across each axis with walls
   Composition composition;
@@ -99,13 +118,19 @@ class Snapshot {
   const Totals& totals;
   const SpeciesSums& species;
 
+  std::size_t species_of(std::size_t i) const {
+    return gas.composition.is_mixture() ? state.species[i] : 0;
+  }
+  /// Computed once for all observables.
+  const Weights& weights() const;
   /// The means in the cells of the grid, computed once for all observables.
   const CellMeans& cells() const {
-    if (!cells_) cells_ = means_in_cells(gas.grid(), state);
+    if (!cells_) cells_ = means_in_cells(gas.grid(), state, weights());
     return *cells_;
   }
 
  private:
+  mutable std::optional<Weights> weights_;
   mutable std::optional<CellMeans> cells_;
 };
 

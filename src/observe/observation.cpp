@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "src/observe/by_size.h"
 #include "src/observe/effect_sums.h"
 #include "src/observe/rod_sums.h"
 #include "src/scene/box_of.h"
@@ -35,11 +36,24 @@ GasSetting GasSetting::of_species(std::size_t index) const {
   GasSetting out = *this;
   const Species& species = composition[index];
   out.count = species.count;
-  out.length = species.extent();
+  out.length = species.greatest_extent();
   out.mass = species.mass;
   out.inertia = species.inertia();
   out.composition = Composition({species}, composition.restitution(index, index));
   out.species_by_id = {};
+  return out;
+}
+
+const Weights& Snapshot::weights() const {
+  if (weights_) return *weights_;
+  Weights& out = weights_.emplace();
+  const OwnBodies& own = state.own_bodies;
+  for (std::size_t i = 0; i < own.mass.size(); ++i) {
+    const Species& species = gas.composition[species_of(i)];
+    out.masses.push_back(species.fixed ? 1 : own.mass[i] / species.mass);
+    out.inertias.push_back(species.fixed || !species.turns() ? 1
+                                                             : own.inertia[i] / species.inertia());
+  }
   return out;
 }
 
@@ -52,7 +66,7 @@ std::vector<SeriesField::Extent> by_pair(const Composition& composition,
 }
 
 Observation::Observation(const Scene& scene, ObservablePointer cooling, SpeciesById species)
-    : gas_(setting_of(scene)), parts_(gas_) {
+    : gas_(setting_of(scene)), parts_(settings_of_species(gas_)) {
   gas_.species_by_id = std::move(species);
   const auto& names = scene.output.observables;
   if (gas_.composition.is_mixture()) {
@@ -82,6 +96,13 @@ Observation::Observation(const Scene& scene, ObservablePointer cooling, SpeciesB
                         "temperatures at the start",
                         std::move(cooling)});
   }
+  if (scene.output.size_classes) {
+    const bool follows = std::ranges::find(names, displacement_name) != names.end();
+    members_.push_back({"by_size",
+                        "Classes of each species of as many needles by size, which is the length "
+                        "of the axis or of spheres the diameter",
+                        make_by_size(gas_, *scene.output.size_classes, follows)});
+  }
   for (const Entry& entry : registry()) {
     const bool always = scene.shear && entry.name == pressure_tensor_name;
     if (!always && std::ranges::find(names, entry.name) == names.end()) continue;
@@ -97,7 +118,8 @@ Observation::Observation(const Scene& scene, ObservablePointer cooling, SpeciesB
 
 ObservablePointer Observation::make(const Entry& entry) const {
   if (entry.knows_species || !gas_.composition.is_mixture()) return entry.make(gas_);
-  return std::make_unique<BySpecies>(gas_, entry.make, parts_);
+  const std::vector<SeriesField::Extent> each{{"species", gas_.composition.size()}};
+  return std::make_unique<ByPart>(each, entry.make, parts_);
 }
 
 std::vector<SeriesGroup> Observation::groups() const {
@@ -128,7 +150,7 @@ std::span<const double> Observation::sample(const State& state, const Totals& to
                            species.contacts,
                            species.stress};
   const Snapshot now(gas_, state, totals, is_mixture ? species : of_all);
-  if (is_mixture) parts_.take(now);
+  if (is_mixture) parts_.take(now, std::span(state.species), species.totals);
   for (const Member& member : members_) member.observable->sample(now, row_);
   if (row_.values().size() != width_) {
     throw std::logic_error("an observable's row does not have the size of its fields");

@@ -45,7 +45,7 @@ class Observation {
   ObservablePointer make(const Entry& entry) const;
 
   GasSetting gas_;
-  SnapshotsBySpecies parts_;
+  SnapshotsOfParts parts_;  ///< species
   std::vector<Member> members_;
   std::vector<Observable*> readers_;  ///< those that read collisions
   std::size_t width_ = 0;

@@ -14,7 +14,7 @@ PressureSums pressure_sums(double time, double t_tr_integral, double virial,
 
 Pressure::Pressure(const Scene& scene)
     : kind_(scene.walls.empty() ? Kind::virial : Kind::walls),
-      count_(static_cast<double>(scene.composition().count())) {
+      count_(static_cast<double>(scene.composition().count() - scene.composition().fixed())) {
   const std::array<double, 3>& box = scene.needles.box;
   volume_ = box[0] * box[1] * box[2];
   for (const Scene::WallSide& side : scene.wall_sides()) {

@@ -26,7 +26,9 @@ class Pressure {
 
   /// [energy / L^3]; NaN where no time has passed, and where there is none.
   ///
-  ///   without walls  p V dt = N (integral of T_tr) + (1/3) sum of r12 . dp over the collisions
+  ///   without walls  p V dt = N (integral of T_tr) + (1/3) sum of r12 . dp over the collisions, N
+  ///                  the needles that move; those with fixed ones count as if these moved apart
+  ///                  as the box grows
   ///   between walls  p A dt = sum of J . n over the hits, A the area of all walls: layers along
   ///                  walls have another virial, and centres less room than the box
   ///

@@ -35,7 +35,7 @@ class Profiles : public Observable {
   void sample(const Snapshot& now, Row& row) override {
     std::vector<CellMeans> axes;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      axes.push_back(means_in_cells(slabs_across(axis), now.state));
+      axes.push_back(means_in_cells(slabs_across(axis), now.state, now.weights()));
     }
     const double volume = gas_.volume() / slabs_;
     for (const auto& axis : axes)

@@ -15,6 +15,7 @@ struct Entry {
   /// Whether it reads the species of needles, as pairs of them need; others are made for each.
   bool knows_species = false;
 };
+inline constexpr std::string_view displacement_name = "displacement";
 
 /// In the order of observable_names.
 std::span<const Entry> registry();

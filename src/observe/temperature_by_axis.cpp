@@ -1,7 +1,7 @@
 // Temperatures of the motion along and about each axis a of the box:
 //
-//   t_tr   m <v_a^2>
-//   t_rot  (3/2) I <w_a^2>
+//   t_tr   <m v_a^2>
+//   t_rot  (3/2) <I w_a^2>
 //
 // The mean of the three is T_tr and T_rot, and in an isotropic gas all three are equal.
 #include "src/observe/registry.h"
@@ -28,11 +28,12 @@ class TemperatureByAxis : public Observable {
 
   void sample(const Snapshot& now, Row& row) override {
     Vector v2{}, w2{};
+    const Weights& weights = now.weights();
     for (std::size_t i = 0; i < now.state.size(); ++i) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const double v = now.state.velocity[i][axis], w = now.state.angular_velocity[i][axis];
-        v2[axis] += v * v;
-        w2[axis] += w * w;
+        v2[axis] += weights.mass(i) * (v * v);
+        w2[axis] += weights.inertia(i) * (w * w);
       }
     }
     const double count = static_cast<double>(now.state.size());

@@ -1,5 +1,6 @@
 // Departure of the velocities from independent Gaussian ones, for which all of these are 0. Means
-// are over all needles; velocities are not taken relative to a flow.
+// are over all needles; velocities are not taken relative to a flow. Where masses and moments of
+// inertia differ within a species, v stands for sqrt(m) v and w for sqrt(I) w.
 //
 //   cumulant_v         (3/5) <v^4> / <v^2>^2 - 1, the second Sonine coefficient
 //   cumulant_w         (1/2) <w^4> / <w^2>^2 - 1, as w has two components
@@ -35,18 +36,20 @@ class VelocityMoments : public Observable {
 
   void sample(const Snapshot& now, Row& row) override {
     double v2 = 0, v4 = 0, w2 = 0, w4 = 0, v2w2 = 0, along_spin = 0, along_director = 0;
+    const Weights& weights = now.weights();
     for (std::size_t i = 0; i < now.state.size(); ++i) {
       const Vector& v = now.state.velocity[i];
       const Vector& w = now.state.angular_velocity[i];
-      const double vv = dot(v, v), ww = dot(w, w);
+      const double mass = weights.mass(i), inertia = weights.inertia(i);
+      const double vv = mass * dot(v, v), ww = inertia * dot(w, w);
       const double vw = dot(v, w), vu = dot(v, now.state.orientation[i]);
       v2 += vv;
       v4 += vv * vv;
       w2 += ww;
       w4 += ww * ww;
       v2w2 += vv * ww;
-      along_spin += vw * vw;
-      along_director += vu * vu;
+      along_spin += mass * inertia * (vw * vw);
+      along_director += mass * (vu * vu);
     }
     const double count = static_cast<double>(now.state.size());
     row.put(0.6 * (v4 * count / (v2 * v2)) - 1);

@@ -2,9 +2,9 @@
 // (src/observe/wall_slabs.h), n of them in the volume A d, with directors u:
 //
 //   density       n / (A d)
-//   flow          <v . e>
-//   t_tr, t_rot   m <v^2> / 3, I <w^2> / 2
-//   t_normal      m <(v . e)^2>
+//   flow          <v . e>, by mass
+//   t_tr, t_rot   <m v^2> / 3, <I w^2> / 2
+//   t_normal      <m (v . e)^2>
 //   p2            <(3 (u . e)^2 - 1) / 2>
 //   cos2          <(u . e)^2>, 1/3 for random directors; no value for spheres, which have none
 //   order_tensor  <(3 u u - 1) / 2>, whose component along e twice is p2
@@ -24,7 +24,7 @@ namespace {
 
 // Sums over the needles in one slab.
 struct SlabSums {
-  double count = 0, v_normal = 0, v2 = 0, v2_normal = 0, w2 = 0, p2 = 0, cos2 = 0;
+  double count = 0, mass = 0, v_normal = 0, v2 = 0, v2_normal = 0, w2 = 0, p2 = 0, cos2 = 0;
   OrderTensor order;
 };
 
@@ -82,7 +82,7 @@ class WallProfiles : public Observable {
     std::vector<std::vector<SlabSums>> axes;
     std::vector<double> outside;
     for (const Slabs& slabs : gas_.wall_slabs) {
-      axes.push_back(sums_of(slabs, now.state));
+      axes.push_back(sums_of(slabs, now.state, now.weights()));
       double inside = 0;
       for (const SlabSums& slab : axes.back()) inside += slab.count;
       outside.push_back(static_cast<double>(now.state.size()) - inside);
@@ -98,7 +98,7 @@ class WallProfiles : public Observable {
     put([&](const SlabSums& slab, const Slabs& slabs) {
       return slab.count / (gas_.volume() / gas_.box.edge(slabs.axis) * slabs.thickness);
     });
-    put_mean(&SlabSums::v_normal, 1);
+    put([](const SlabSums& slab, const Slabs&) { return slab.v_normal / slab.mass; });
     put_mean(&SlabSums::v2, gas_.mass / 3);
     put_mean(&SlabSums::w2, gas_.inertia / 2);
     put_mean(&SlabSums::v2_normal, gas_.mass);
@@ -110,7 +110,8 @@ class WallProfiles : public Observable {
   }
 
  private:
-  static std::vector<SlabSums> sums_of(const Slabs& slabs, const State& state) {
+  static std::vector<SlabSums> sums_of(const Slabs& slabs, const State& state,
+                                       const Weights& weights) {
     std::vector<SlabSums> out(slabs.count);
     for (std::size_t i = 0; i < state.size(); ++i) {
       const auto slab = slabs.of(state.position[i][slabs.axis]);
@@ -118,11 +119,13 @@ class WallProfiles : public Observable {
       SlabSums& sums = out[*slab];
       const Vector &v = state.velocity[i], &w = state.angular_velocity[i];
       const double normal = v[slabs.axis];
+      const double mass = weights.mass(i);
       ++sums.count;
-      sums.v_normal += normal;
-      sums.v2 += dot(v, v);
-      sums.v2_normal += normal * normal;
-      sums.w2 += dot(w, w);
+      sums.mass += mass;
+      sums.v_normal += mass * normal;
+      sums.v2 += mass * dot(v, v);
+      sums.v2_normal += mass * (normal * normal);
+      sums.w2 += weights.inertia(i) * dot(w, w);
       const Vector& u = state.orientation[i];
       sums.p2 += second_legendre(u[slabs.axis]);
       sums.cos2 += u[slabs.axis] * u[slabs.axis];

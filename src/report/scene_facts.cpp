@@ -11,6 +11,7 @@
 #include "needlework/theory.h"
 #include "src/composition/pair_name.h"
 #include "src/io/formats/material.h"
+#include "src/json/results.h"
 #include "src/scene/adopt_state.h"
 #include "src/scene/confinement.h"
 
@@ -53,9 +54,10 @@ Json species_of(const Composition& composition) {
                    {"length", each.length},
                    {"diameter", each.diameter},
                    {"mass", each.mass},
-                   {"k", each.k},
+                   {"k", json::k_of(each)},
                    {"t_tr", each.t_tr},
                    {"t_rot", each.t_rot}});
+    json::add_sizes(out.back(), each);
   }
   return out;
 }
@@ -112,22 +114,24 @@ Json driving_of(const Scene::Driving& driving) {
 
 }  // namespace
 
-// Of a mixture the longest extent and the mean mass; what belongs to each species is with it.
+// Of a mixture the longest extent and the mean mass of those that move; what belongs to each
+// species is with it.
 Json scene_facts(const Scene& scene) {
   const Composition composition = scene.composition();
   const Species& needle = composition[0];
   const bool one = !composition.is_mixture();
+  const std::uint64_t moving = composition.count() - composition.fixed();
   double mass = 0;
   for (const Species& each : composition.species()) {
-    mass += each.mass *
-            (one ? 1 : static_cast<double>(each.count) / static_cast<double>(composition.count()));
+    if (each.fixed) continue;
+    mass += each.mass * (one ? 1 : static_cast<double>(each.count) / static_cast<double>(moving));
   }
   const auto& box = scene.needles.box;
   const double volume = box[0] * box[1] * box[2];
   const auto of_one = [&](double value) { return one ? Json(value) : Json(nullptr); };
   return {{"species", one ? Json::array() : species_of(composition)},
           {"pairs", pairs_of(composition, {scene.collisions.epsilon, scene.collisions.beta})},
-          {"k", of_one(needle.k)},
+          {"k", one ? json::k_of(needle) : Json(nullptr)},
           {"differ", one && needle.sizes.has_value()},
           {"length", one ? needle.length : composition.longest()},
           {"diameter", of_one(needle.diameter)},

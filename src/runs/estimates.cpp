@@ -39,7 +39,8 @@ double estimated_memory(const Scene& scene) {
     const auto observes = [&](const char* name) {
       return std::find(names.begin(), names.end(), name) != names.end();
     };
-    if (observes("displacement")) per_needle += bytes_per_needle_of_displacement;
+    if (observes("displacement"))
+      per_needle += (scene.output.size_classes ? 2 : 1) * bytes_per_needle_of_displacement;
     if (observes("time_correlation")) per_needle += bytes_per_needle_of_time_correlation;
   }
   return base_bytes + per_needle * static_cast<double>(scene.needles.count);

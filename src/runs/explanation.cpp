@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 #include "src/calendar/choice.h"
 #include "src/runs/engine_choice.h"
@@ -31,11 +33,21 @@ double density_of_theory(const LoadedScene& loaded) {
   return rate > 0 ? density * (initial_collision_rate(loaded) / rate) : density;
 }
 
+// Of a gas that keeps its energy, and collides as often as at the start.
+std::optional<Forecast> at_rate_of_start(const LoadedScene& loaded) {
+  const Composition composition = loaded.scene.composition();
+  if (composition.is_inelastic()) return std::nullopt;
+  const std::vector<double> rates = initial_contacts_by_pair(loaded);
+  const double all = std::accumulate(rates.begin(), rates.end(), 0.0);
+  return forecast_at_rate(2 * all / static_cast<double>(composition.count()), loaded.scene.until);
+}
+
 // Of one species, or of a mixture that theory follows.
 std::optional<Forecast> expected_of(const LoadedScene& loaded) {
   const Scene& scene = loaded.scene;
   const Composition composition = scene.composition();
   if (is_pushed(scene)) return std::nullopt;
+  if (beyond_cooling_theory(composition)) return at_rate_of_start(loaded);
   if (composition.is_needle_gas()) {
     const Restitution& rule = composition.restitution(0, 0);
     return forecast({composition[0].k, rule.epsilon, rule.beta}, initial_temperatures(loaded),
@@ -45,13 +57,46 @@ std::optional<Forecast> expected_of(const LoadedScene& loaded) {
   return forecast(composition, volume_of(scene), temperatures_by_species(loaded), scene.until);
 }
 
+// What `count` alike bodies do to walls.
+struct Hitting {
+  Species body;
+  double count;
+  theory::Temperatures now;
+};
+
+// All of them; nothing where they are more than it is worth to ask for.
+std::vector<Hitting> hitting_walls(const LoadedScene& loaded) {
+  constexpr std::size_t most = 20000;
+  const Composition composition = loaded.scene.composition();
+  const auto now = temperatures_by_species(loaded);
+  std::vector<Hitting> out;
+  for (std::size_t n = 0; n < composition.size(); ++n) {
+    const Species& each = composition[n];
+    if (each.fixed || each.sizes) continue;
+    out.push_back({each, static_cast<double>(each.count), now[n]});
+  }
+  if (!composition.has_own_sizes()) return out;
+  const Members members = members_of(loaded);
+  if (members.size() > most) return {};
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const Species& its = members.species_of(i);
+    if (its.fixed || !its.sizes) continue;
+    const BodyNumbers body = members.body(i);
+    Species alone{.length = body.length, .mass = body.mass, .diameter = body.diameter};
+    if (alone.turns()) alone.k = body.mass * (body.length * body.length) / (2 * body.inertia);
+    out.push_back({std::move(alone), 1, now[members.species[i]]});
+  }
+  return out;
+}
+
 // Exact where no gravity acts, for a wall at rest and a state that is drawn.
 std::vector<ExplainedWall> walls_of(const LoadedScene& loaded) {
   const Scene& scene = loaded.scene;
-  const Composition composition = scene.composition();
-  const auto temperatures = temperatures_by_species(loaded);
+  const std::vector<Hitting> bodies =
+      scene.walls.empty() ? std::vector<Hitting>() : hitting_walls(loaded);
   std::array<bool, 3> walled{};
-  bool is_known = !loaded.initial && scene.forces.gravity == std::array<double, 3>{};
+  bool is_known =
+      !bodies.empty() && !loaded.initial && scene.forces.gravity == std::array<double, 3>{};
   for (const Scene::Wall& wall : scene.walls) is_known = is_known && !wall.motion;
   std::vector<ExplainedWall> out;
   for (const Scene::WallSide& side : scene.wall_sides()) {
@@ -60,14 +105,13 @@ std::vector<ExplainedWall> walls_of(const LoadedScene& loaded) {
     out.push_back({side, start, scene.walls[side.entry].temperature ? undefined : start});
   }
   if (!is_known || out.empty()) return out;
-  for (std::size_t n = 0; n < composition.size(); ++n) {
+  for (const auto& [body, count, now] : bodies) {
     // The caps of rods touch walls where the ends of their axes are half a diameter away.
     std::array<double, 3> room = scene.needles.box;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (walled[axis]) room[axis] -= composition[n].diameter;
+      if (walled[axis]) room[axis] -= body.diameter;
     }
-    const auto rates = theory::wall_rates(composition[n], room, walled, temperatures[n]);
-    const auto count = static_cast<double>(composition[n].count);
+    const auto rates = theory::wall_rates(body, room, walled, now);
     for (ExplainedWall& wall : out) {
       const double epsilon = scene.walls[wall.side.entry].epsilon;
       wall.hits += count * rates[wall.side.axis].hits;
@@ -105,7 +149,7 @@ std::optional<theory::SteadyShear> steady_of(const Scene& scene) {
   const Composition composition = scene.composition();
   const std::optional<std::size_t> only = composition.only();
   if (!scene.shear || !scene.walls.empty() || scene.driving.kicks || scene.driving.andersen ||
-      !only)
+      !only || composition.has_own_sizes())
     return {};
   const Restitution& rule = composition.restitution(*only, *only);
   if (rule.is_rough()) return {};

@@ -96,42 +96,22 @@ std::vector<std::array<double, 3>> peculiar_velocities(const State& state, const
   return out;
 }
 
-namespace {
-
-// The bodies of a state, with their species.
-class BodiesOfState {
- public:
-  BodiesOfState(const State& state, const Composition& composition)
-      : composition_(composition),
-        species_(composition.in_order_of_id(state.species)),
-        own_(own_bodies_of(composition, state)) {}
-
-  std::size_t species_of(std::size_t i) const {
-    return composition_.is_mixture() ? species_.at(i) : 0;
-  }
-  BodyNumbers body(std::size_t i) const {
-    return own_.empty() ? numbers_of(composition_[species_of(i)]) : own_[i];
-  }
-
- private:
-  const Composition& composition_;
-  std::vector<SpeciesIndex> species_;
-  std::vector<BodyNumbers> own_;
-};
-
-}  // namespace
+Members members_of(const LoadedScene& loaded) {
+  if (!loaded.initial) return drawn_members(loaded.scene);
+  return members_of(loaded.scene.composition(), *loaded.initial);
+}
 
 Totals totals_of(const State& state, const Scene& scene) {
-  const Composition composition = scene.composition();
-  const BodiesOfState bodies(state, composition);
+  const Members members = needlework::members_of(scene.composition(), state);
+  const Composition& composition = members.composition;
   Totals totals;
   const double count = static_cast<double>(state.size() - composition.fixed());
   const std::array<double, 3>& gravity = scene.forces.gravity;
   const std::array<bool, 3> periodic = scene.periodic();
   double fall = 0;  // potential energy
   for (std::size_t i = 0; i < state.size(); ++i) {
-    if (composition[bodies.species_of(i)].fixed) continue;
-    const BodyNumbers body = bodies.body(i);
+    if (members.species_of(i).fixed) continue;
+    const BodyNumbers body = members.body(i);
     const std::array<double, 3> velocity = velocity_of(state, scene, i);
     totals.t_tr += body.mass * square(velocity) / (3 * count);
     totals.t_rot += body.inertia * square(state.angular_velocity[i]) / (2 * count);
@@ -167,16 +147,23 @@ std::vector<theory::Temperatures> temperatures_by_species(const LoadedScene& loa
   }
   out.assign(composition.size(), {0, 0});
   const State& state = *loaded.initial;
-  const BodiesOfState bodies(state, composition);
+  const Members members = needlework::members_of(composition, state);
   for (std::size_t i = 0; i < state.size(); ++i) {
-    const std::size_t index = bodies.species_of(i);
-    if (composition[index].fixed) continue;
-    const BodyNumbers body = bodies.body(i);
-    const double count = static_cast<double>(composition[index].count);
-    out[index].t_tr += body.mass * square(velocity_of(state, loaded.scene, i)) / (3 * count);
-    out[index].t_rot += body.inertia * square(state.angular_velocity[i]) / (2 * count);
+    const Species& species = members.species_of(i);
+    if (species.fixed) continue;
+    const BodyNumbers body = members.body(i);
+    const double count = static_cast<double>(species.count);
+    theory::Temperatures& of = out[members.species[i]];
+    of.t_tr += body.mass * square(velocity_of(state, loaded.scene, i)) / (3 * count);
+    of.t_rot += body.inertia * square(state.angular_velocity[i]) / (2 * count);
   }
   return out;
+}
+
+const char* beyond_cooling_theory(const Composition& composition) {
+  if (composition.has_fixed()) return "fixed bodies";
+  if (composition.has_own_sizes()) return "bodies that differ within a species";
+  return nullptr;
 }
 
 bool has_mixture_theory(const Composition& composition) {
@@ -196,7 +183,9 @@ double density_of(const Scene& scene) {
 double theory_density_of(const Scene& scene) {
   const Composition composition = scene.composition();
   const Species& species = composition[0];
-  return density_of(scene) / (species.length * std::sqrt(species.mass));
+  const double length = species.length;
+  return static_cast<double>(scene.needles.count) * (length * length * length) / volume_of(scene) /
+         (length * std::sqrt(species.mass));
 }
 
 }  // namespace needlework::runs

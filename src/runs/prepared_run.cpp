@@ -56,6 +56,7 @@ observe::ObservablePointer cooling_theory(const Scene& scene, const Totals& init
   if (!drawn || !(initial.energy > 0) || acts_on_single_needles(scene)) return nullptr;
   const Composition composition = scene.composition();
   if (composition.has_width()) return nullptr;  // it is that of low density alone
+  if (beyond_cooling_theory(composition)) return nullptr;
   if (composition.is_mixture()) {
     if (!has_mixture_theory(composition)) return nullptr;
     std::vector<theory::Temperatures> now;
@@ -91,10 +92,11 @@ void PreparedRun::open_output(Open&& open) {
 void PreparedRun::observe() {
   if (observation_) return;
   observe::SpeciesById species;
-  const auto& names = scene_.output.observables;
-  if (simulation_.composition().is_mixture() && !names.empty()) {
+  const Composition& composition = simulation_.composition();
+  const bool may_differ = composition.is_mixture() || composition.has_own_sizes();
+  if ((may_differ && !scene_.output.observables.empty()) || scene_.output.size_classes) {
     State state = simulation_.copy();
-    species = {std::move(state.id), std::move(state.species)};
+    species = {std::move(state.id), std::move(state.species), std::move(state.own_bodies)};
   }
   observation_.emplace(scene_, cooling_theory(scene_, initial_, simulation_, drawn_),
                        std::move(species));

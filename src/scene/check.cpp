@@ -138,6 +138,7 @@ std::vector<std::string> output_warnings(const Scene& scene) {
                      : !output.observables.empty() ? "observables"
                      : output.series_every         ? "series_every"
                      : output.grid                 ? "grid"
+                     : output.size_classes         ? "size_classes"
                                                    : nullptr;
   if (output.file.empty() && lost)
     list.push_back(fmt::format("output.{}: nothing is written without output.file", lost));

@@ -123,33 +123,16 @@ void draw_place(NeedleRandom& random, const std::array<Gap, 3>& gaps, const Vect
   } while (!is_inside());
 }
 
-// The needles of a state: the species of each and, where those of one differ, its body.
-struct Members {
-  const Composition composition;
-  std::vector<SpeciesIndex> species;
-  std::vector<BodyNumbers> own;  ///< or empty
+RodShape shape_of(const Members& members, std::size_t i) {
+  const BodyNumbers its = members.body(i);
+  return {its.length, its.diameter, members.species[i]};
+}
 
-  BodyNumbers body(std::size_t i) const {
-    return own.empty() ? numbers_of(composition[species[i]]) : own[i];
-  }
-  RodShape shape(std::size_t i) const {
-    const BodyNumbers its = body(i);
-    return {its.length, its.diameter, species[i]};
-  }
-  std::vector<RodShape> shapes() const {
-    std::vector<RodShape> out;
-    for (std::size_t i = 0; i < species.size(); ++i) out.push_back(shape(i));
-    return out;
-  }
-  // Of its mass, or moment of inertia, in that of its species.
-  double share_of_mass(std::size_t i) const {
-    return own.empty() ? 1 : own[i].mass / composition[species[i]].mass;
-  }
-  double share_of_inertia(std::size_t i) const {
-    const double of_species = own.empty() ? 0 : composition[species[i]].inertia();
-    return of_species > 0 ? own[i].inertia / of_species : 1;
-  }
-};
+std::vector<RodShape> shapes_of(const Members& members) {
+  std::vector<RodShape> out;
+  for (std::size_t i = 0; i < members.size(); ++i) out.push_back(shape_of(members, i));
+  return out;
+}
 
 // Draws velocities for needles of all species.
 class Velocities {
@@ -210,13 +193,6 @@ State without_velocities(const Scene& scene, std::size_t count) {
   return state;
 }
 
-// Those of a state that is drawn.
-Members members_of(const Scene& scene) {
-  Composition composition = scene.composition();
-  std::vector<SpeciesIndex> species = composition.in_order_of_id();
-  return {std::move(composition), std::move(species), drawn_bodies(scene)};
-}
-
 // What a state says of them.
 void enter(const Members& members, State& state) {
   if (members.composition.is_mixture()) state.species = members.species;
@@ -226,8 +202,8 @@ void enter(const Members& members, State& state) {
 }  // namespace
 
 State draw_needles(const Scene& scene) {
-  const Members members = members_of(scene);
-  State state = without_velocities(scene, members.species.size());
+  const Members members = drawn_members(scene);
+  State state = without_velocities(scene, members.size());
   if (state.size() == 0) return state;
   const Velocities velocities(members);
   const std::array<Gap, 3> gaps = gaps_of(scene);
@@ -250,7 +226,7 @@ namespace {
 // ones, which find theirs around it.
 std::vector<std::size_t> largest_first(const Members& members) {
   std::vector<double> excluded;
-  for (std::size_t id = 0; id < members.species.size(); ++id) {
+  for (std::size_t id = 0; id < members.size(); ++id) {
     const BodyNumbers body = members.body(id);
     const Species its{.length = body.length, .diameter = body.diameter};
     excluded.push_back(excluded_volume(its, its));
@@ -265,11 +241,11 @@ std::vector<std::size_t> largest_first(const Members& members) {
 }  // namespace
 
 Insertion insert_rods(const Scene& scene, std::uint64_t most_tries, double most_on_average) {
-  const Members members = members_of(scene);
-  const std::size_t rods = members.species.size();
+  const Members members = drawn_members(scene);
+  const std::size_t rods = members.size();
   Insertion out{without_velocities(scene, rods), 0, 0};
   const std::array<Gap, 3> gaps = gaps_of(scene);
-  RodGrid grid(members.composition, members.shapes(), box_at_start(scene));
+  RodGrid grid(members.composition, shapes_of(members), box_at_start(scene));
   for (const std::size_t id : largest_first(members)) {
     NeedleRandom random(scene.needles.seed, id);
     bool placed = false;
@@ -283,8 +259,8 @@ Insertion insert_rods(const Scene& scene, std::uint64_t most_tries, double most_
       }
       Vector &centre = out.state.position[id], &director = out.state.orientation[id];
       draw_place(random, gaps, out.state.box, members.body(id), centre, director);
-      if (grid.overlap(centre, director, members.shape(id), 0)) continue;
-      grid.enter(centre, director, members.shape(id));
+      if (grid.overlap(centre, director, shape_of(members, id), 0)) continue;
+      grid.enter(centre, director, shape_of(members, id));
       placed = true;
     }
     if (!placed) return out;
@@ -295,7 +271,7 @@ Insertion insert_rods(const Scene& scene, std::uint64_t most_tries, double most_
 }
 
 std::optional<State> place_rods_on_lattice(const Scene& scene, RodOrder order) {
-  const Members members = members_of(scene);
+  const Members members = drawn_members(scene);
   const Composition& composition = members.composition;
   const std::array<Gap, 3> gaps = gaps_of(scene);
   LatticeBox room;
@@ -329,10 +305,7 @@ std::optional<State> place_rods_on_lattice(const Scene& scene, RodOrder order) {
 
 void draw_velocities(const Scene& scene, State& state) {
   if (state.size() == 0) return;
-  Composition composition = scene.composition();
-  std::vector<SpeciesIndex> species = composition.in_order_of_id(state.species);
-  std::vector<BodyNumbers> own = own_bodies_of(composition, state);
-  const Members members{std::move(composition), std::move(species), std::move(own)};
+  const Members members = members_of(scene.composition(), state);
   const Velocities velocities(members);
   for (std::size_t id = 0; id < state.size(); ++id) {
     StopRequest::check_in_turn(id);

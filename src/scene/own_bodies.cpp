@@ -6,6 +6,8 @@
 #include <cmath>
 #include <mutex>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
 #include "needlework/error.h"
 #include "src/box/own_numbers.h"
@@ -378,6 +380,18 @@ std::vector<BodyNumbers> drawn_bodies(const Scene& scene) {
     }
   }
   return out;
+}
+
+Members members_of(const Composition& composition, const State& state) {
+  std::vector<SpeciesIndex> species = composition.in_order_of_id(state.species);
+  if (!composition.is_mixture()) species.assign(state.size(), 0);
+  return {composition, std::move(species), own_bodies_of(composition, state)};
+}
+
+Members drawn_members(const Scene& scene) {
+  Composition composition = scene.composition();
+  std::vector<SpeciesIndex> species = composition.in_order_of_id();
+  return {std::move(composition), std::move(species), drawn_bodies(scene)};
 }
 
 OwnBodies columns_of(const std::vector<BodyNumbers>& bodies) {

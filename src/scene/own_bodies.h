@@ -29,6 +29,31 @@ OwnBodies all_numbers_of(const Scene& scene, const State& state);
 /// have width, and others do not.
 std::vector<BodyNumbers> own_bodies_of(const Composition& composition, const State& state);
 
+/// The needles of a state or of a scene: the species of each and, where those of one differ, its
+/// body.
+struct Members {
+  Composition composition;
+  std::vector<SpeciesIndex> species;
+  std::vector<BodyNumbers> own;  ///< or empty
+
+  std::size_t size() const { return species.size(); }
+  const Species& species_of(std::size_t i) const { return composition[species[i]]; }
+  BodyNumbers body(std::size_t i) const { return own.empty() ? numbers_of(species_of(i)) : own[i]; }
+  /// Of its mass, or moment of inertia, in that of its species.
+  double share_of_mass(std::size_t i) const {
+    return own.empty() ? 1 : own[i].mass / species_of(i).mass;
+  }
+  double share_of_inertia(std::size_t i) const {
+    const double of_species = own.empty() ? 0 : species_of(i).inertia();
+    return of_species > 0 ? own[i].inertia / of_species : 1;
+  }
+};
+
+/// Of all rows of a state. Throws as own_bodies_of().
+Members members_of(const Composition& composition, const State& state);
+/// Of a scene that is drawn, in order of id.
+Members drawn_members(const Scene& scene);
+
 /// A number of bodies that may be drawn, with the keys of its distribution.
 struct DrawnQuantity {
   std::string_view name;

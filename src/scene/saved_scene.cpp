@@ -7,10 +7,13 @@
 
 namespace needlework {
 
+void transfer(Archive& archive, Spread& spread) {
+  archive(spread.mean, spread.width, spread.least, spread.greatest);
+}
+
 void transfer(Archive& archive, Sizes& sizes) {
   archive(sizes.product, sizes.square, sizes.cube, sizes.volume, sizes.least_extent,
-          sizes.greatest_extent, sizes.greatest_length, sizes.greatest_diameter,
-          sizes.least_diameter, sizes.least_mass, sizes.least_inertia);
+          sizes.greatest_extent, sizes.length, sizes.diameter, sizes.mass, sizes.inertia, sizes.k);
 }
 
 void transfer(Archive& archive, Distribution& distribution) {

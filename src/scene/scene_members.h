@@ -160,7 +160,7 @@ void visit_members(AnyScene& scene, Visit&& visit) {
   }
   {
     auto& [file, series_per_decade, series_every, frame_times, frames_per_decade, frames_every,
-           observables, grid, events, checkpoint_every] = output;
+           observables, grid, size_classes, events, checkpoint_every] = output;
     visit("output", "file", file);
     visit("output", "series_per_decade", series_per_decade);
     visit("output", "series_every", series_every);
@@ -169,6 +169,7 @@ void visit_members(AnyScene& scene, Visit&& visit) {
     visit("output", "frames_every", frames_every);
     visit("output", "observables", observables);
     visit("output", "grid", grid);
+    visit("output", "size_classes", size_classes);
     visit("output", "events", events);
     visit("output", "checkpoint_every", checkpoint_every);
   }

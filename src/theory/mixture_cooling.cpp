@@ -217,9 +217,9 @@ MixtureRates mixture_rates(const Composition& composition, double volume,
 
 Temperatures mean_of_species(const Composition& composition, std::span<const Temperatures> each) {
   Temperatures out{.t_tr = 0, .t_rot = 0, .turning = composition.turning_share()};
-  const double count = static_cast<double>(composition.count());
+  const double count = static_cast<double>(composition.count() - composition.fixed());
   for (std::size_t n = 0; n < each.size(); ++n) {
-    if (composition[n].count == 0) continue;
+    if (composition[n].count == 0 || composition[n].fixed) continue;
     const double share = static_cast<double>(composition[n].count) / count;
     out.t_tr += share * each[n].t_tr;
     if (composition[n].turns()) out.t_rot += share / out.turning * each[n].t_rot;

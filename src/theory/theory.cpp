@@ -37,19 +37,9 @@ double collision_rate(double density, Temperatures temperatures, double k) {
   return density * half_root_pi * flux(temperatures, k);
 }
 
-namespace {
-
-// The temperature of needles with a fixed energy, and zero momentum in as many directions, and
-// their mean speed relative to that at this temperature: velocities lie on a sphere in 5 N - 3
-// dimensions if all of the momentum is conserved. A relative velocity does not depend on the
-// momentum.
-struct Equilibrium {
-  double temperature, speed;
-};
-
-Equilibrium equilibrium_of(double count, double volume, double total_energy, int conserved) {
-  require(std::isfinite(count) && count >= 2.0, "count", count, "a finite number, 2 or more");
-  require_positive("volume", volume);
+// Velocities lie on a sphere in D dimensions. A relative velocity does not depend on the momentum.
+Equilibrium equilibrium_of(double count, double total_energy, int conserved) {
+  require(std::isfinite(count) && count >= 1.0, "count", count, "a finite number, 1 or more");
   require_not_negative("total_energy", total_energy);
   require(conserved >= 0 && conserved <= 3, "conserved", conserved, "0, 1, 2 or 3");
   const double degrees = 5.0 * count - conserved;
@@ -57,10 +47,10 @@ Equilibrium equilibrium_of(double count, double volume, double total_energy, int
           std::sqrt(0.5 * degrees) * boost::math::tgamma_delta_ratio(0.5 * degrees, 0.5)};
 }
 
-}  // namespace
-
 double equilibrium_rate(double count, double volume, double total_energy, double k, int conserved) {
-  const auto [temperature, speed] = equilibrium_of(count, volume, total_energy, conserved);
+  require(std::isfinite(count) && count >= 2.0, "count", count, "a finite number, 2 or more");
+  require_positive("volume", volume);
+  const auto [temperature, speed] = equilibrium_of(count, total_energy, conserved);
   return speed *
          collision_rate((count - 1.0) / volume, {.t_tr = temperature, .t_rot = temperature}, k);
 }
@@ -68,9 +58,15 @@ double equilibrium_rate(double count, double volume, double total_energy, double
 // Momentum correlates velocities of two needles just so that their relative one has T/m + T/m'.
 std::vector<double> mixture_equilibrium_rates(const Composition& composition, double volume,
                                               double total_energy, int conserved) {
-  const double count = static_cast<double>(composition.count());
-  const Equilibrium gas = equilibrium_of(count, volume, total_energy, conserved);
-  const std::vector<Temperatures> now(composition.size(), {gas.temperature, gas.temperature});
+  const double all = static_cast<double>(composition.count());
+  require(all >= 2.0, "count", all, "2 or more");
+  const Equilibrium gas =
+      equilibrium_of(all - static_cast<double>(composition.fixed()), total_energy, conserved);
+  std::vector<Temperatures> now;
+  for (const Species& each : composition.species()) {
+    const double t = each.fixed ? 0 : gas.temperature;
+    now.push_back({t, t});
+  }
   std::vector<double> out = mixture_rates(composition, volume, now).collisions;
   for (double& rate : out) rate *= gas.speed;
   return out;

@@ -167,14 +167,17 @@ double kick_power(const Composition& composition, double translational, double r
   require_not_negative("rotational", rotational);
   double count = 0, mass = 0, squares = 0, inertia = 0;
   for (const Species& each : composition.species()) {
+    if (each.fixed) continue;
     const auto needles = static_cast<double>(each.count);
+    const double width = each.sizes ? each.sizes->mass.width : 0;
     count += needles;
     mass += needles * each.mass;
-    squares += needles * each.mass * each.mass;
+    squares += needles * each.mass * each.mass * (1 + width * width);
     inertia += needles * each.inertia();
   }
   if (count == 0) return 0;
-  return (1.5 * translational * translational * (mass - squares / mass) +
+  const double taken_off = composition.has_fixed() ? 0 : squares / mass;
+  return (1.5 * translational * translational * (mass - taken_off) +
           rotational * rotational * inertia) /
          count;
 }

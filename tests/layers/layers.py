@@ -29,7 +29,8 @@ LAYERS = [
     Layer("composition", ["src/composition"], ["composition.h", "distribution.h"], ["random"]),
     # Where the needles of a state are, the box and its images.
     Layer("box", ["src/box"], ["state.h"], ["kernels"]),
-    Layer("theory", ["src/theory"], ["theory.h", "diffusion.h"], ["base", "composition"]),
+    Layer("theory", ["src/theory"], ["theory.h", "body_rates.h", "diffusion.h"],
+          ["base", "composition"]),
     Layer("trajectory", ["src/trajectory"],
           ["collision.h", "happening.h", "described.h", "totals.h", "series.h", "counters.h", "stop.h"],
           ["base", "archive", "kernels"]),

@@ -17,6 +17,7 @@ constexpr ValueRange positive{std::numeric_limits<double>::denorm_min()};
 constexpr ValueRange per_decade{positive.least, 1e6};
 constexpr ValueRange cells_along_an_axis{1, 10000};
 constexpr double most_cells = 1e6;
+constexpr ValueRange size_classes{1, 64};
 
 std::optional<std::vector<double>> increasing_times(const Value& value) {
   const auto* array = value.as<Value::Array>();
@@ -152,6 +153,9 @@ SceneSection output_section() {
                "a whole number in digits, from 1 to 10000, or an array of three, at most 1e6 "
                "cells",
                [](Scene& s, V v, R r) { return store(s.output.grid, grid(v, r)); }},
+              {"size_classes", Aspect::output, size_classes,
+               "a whole number in digits, from 1 to 64",
+               [](Scene& s, V v, R r) { return store(s.output.size_classes, whole_number(v, r)); }},
               {"events",
                Aspect::output,
                {},
