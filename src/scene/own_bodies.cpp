@@ -134,8 +134,7 @@ class BodyMaker {
   }
   double k_of(const BodyNumbers& body, std::uint64_t id) const {
     if (const auto k = drawn(3, id)) return *k;
-    const bool is_homogeneous =
-        species_.drawn.density && body.diameter > 0 && species_.k == Species{}.k;
+    const bool is_homogeneous = body.diameter > 0 && species_.k == Species{}.k;
     return is_homogeneous ? homogeneous_k(body.length, body.diameter) : species_.k;
   }
   // What a density counts: the length of a needle, the volume of others.

@@ -160,7 +160,9 @@ void adopt_shapes(Scene& scene, const std::set<std::string>& given) {
     scene.needles.k = homogeneous_k(1, scene.needles.diameter);
   for (std::size_t n = 0; n < scene.species.size(); ++n) {
     Species& species = scene.species[n];
-    const bool is_rod = species.diameter > 0 && species.turns();
+    // That of each body follows where it is drawn.
+    const bool is_rod =
+        species.diameter > 0 && species.turns() && species.drawn == DrawnSizes{};
     if (is_rod && !given.contains(key_of_entry("species.k", n)) && !species.given_inertia)
       species.k = homogeneous_k(species.length, species.diameter);
   }
@@ -172,6 +174,8 @@ void adopt_species(Scene& scene, bool is_drawn) {
   if (scene.species.empty()) return;
   const Composition composition = scene.composition();
   for (std::size_t n = 0; is_drawn && n < composition.size(); ++n) {
+    // By what the species says bodies are drawn that differ: of those k is one of means.
+    if (composition[n].sizes) continue;
     scene.species[n].k = composition[n].k;
     scene.species[n].given_inertia.reset();
   }
