@@ -12,7 +12,8 @@ namespace {
 
 // The change of the total momentum, over that of so many needles by chance.
 double momentum_drift(const Totals& initial, const Totals& now, const Scene& scene) {
-  if (!scene.walls.empty() || scene.driving.andersen) {
+  const Composition composition = scene.composition();
+  if (!scene.walls.empty() || scene.driving.andersen || composition.has_fixed()) {
     return std::numeric_limits<double>::quiet_NaN();
   }
   double square = 0;
@@ -20,7 +21,7 @@ double momentum_drift(const Totals& initial, const Totals& now, const Scene& sce
     const double change = now.momentum[axis] - initial.momentum[axis];
     square += change * change;
   }
-  const double scale = std::sqrt(total_mass(scene.composition()) * now.t_tr);
+  const double scale = std::sqrt(total_mass(composition) * now.t_tr);
   return scale > 0 ? std::sqrt(square) / scale : 0;
 }
 

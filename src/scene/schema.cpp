@@ -141,6 +141,11 @@ std::string expected_instead(const Entry& unknown) {
         unknown.key);
   }
   const std::vector<std::string_view> names = keys_of(unknown.section);
+  std::vector<std::string_view> shown;  // without keys of tables in place of which a number may be
+  for (const std::string_view name : names) {
+    const std::string_view table = name.substr(0, name.find('.'));
+    if (table == name || !find_scene_key(unknown.section, table)) shown.push_back(name);
+  }
   const std::string_view nearest = nearest_word(unknown.key, names);
   std::string suggestion(nearest);
   // If no key of the section is similar, looks for the same key in another section.
@@ -152,7 +157,7 @@ std::string expected_instead(const Entry& unknown) {
   if (unknown.section.empty() && suggestion.empty())
     suggestion = nearest_word(unknown.key, scene_sections());
   return fmt::format("expected {}{}{}", unknown.section.empty() ? "a section or " : "one of ",
-                     fmt::join(names, ", "), did_you_mean(suggestion));
+                     fmt::join(shown, ", "), did_you_mean(suggestion));
 }
 
 }  // namespace needlework

@@ -103,7 +103,7 @@ double BodyRates::pairs_of(const Sums& a, const Sums& b, const Crowding& crowdin
       crowding.constant * (a.square * b.count + 2 * a.diameter * b.diameter + a.count * b.square) +
       crowding.linear * (a.square * b.diameter + a.diameter * b.square) +
       crowding.square * (a.square * b.square);
-  return std::sqrt(pi / 8) * (faces + 2 * sides + 4 * caps);
+  return std::sqrt(pi / 8) * (faces + 2 * (sides + caps));
 }
 
 // The same of each body with itself.
@@ -113,7 +113,7 @@ double BodyRates::selves_of(const Group& group, const Parts& parts, const Crowdi
   const double caps = (4 * crowding.constant * group.square +
                        2 * crowding.linear * group.diameter3 + crowding.square * group.diameter4) *
                       (parts.caps * parts.caps);
-  return std::sqrt(pi / 8) * (faces + 2 * sides + 4 * caps);
+  return std::sqrt(pi / 8) * (faces + 2 * (sides + caps));
 }
 
 // By pair of species, each two bodies once.

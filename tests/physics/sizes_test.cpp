@@ -85,14 +85,14 @@ std::vector<std::size_t> classes_by_length(const Members& members) {
 
 TEST(Sizes, CollideAndMoveByTheirLengths) {
   constexpr std::size_t count = 60;
-  const Scene scene = gas_of_sizes(count, 4);
+  const Scene scene = gas_of_sizes(count, 5);
   Simulation simulation(scene);
   const State start = simulation.copy();
   observe::Observation observation(scene, nullptr, {start.id, {}, start.own_bodies});
   simulation.on_collision([&](const Collision& c) { observation.collision(c); });
   const Members members = drawn_members(scene);
   const auto [t, speed] = theory::equilibrium_of(count, simulation.totals().energy * count);
-  const Expected exact = expected_of(members, classes_by_length(members), 64, t, speed);
+  const Expected exact = expected_of(members, classes_by_length(members), 125, t, speed);
   double mass = 0;
   for (const double each : exact.mass) mass += each * count / classes;
 
@@ -156,7 +156,7 @@ void expect_exact(const Scene& scene, int batches, double length, double precisi
   EXPECT_LT(ratio.error, precision);
 }
 
-TEST(Sizes, CollideAtTheExactRate) { expect_exact(gas_of_sizes(300, 8), 40, 8, 0.01); }
+TEST(Sizes, CollideAtTheExactRate) { expect_exact(gas_of_sizes(300, 10), 50, 8, 0.01); }
 
 Scene needles_among_fixed(bool meet, std::uint64_t moving, std::uint64_t fixed) {
   return parse_scene(
@@ -170,14 +170,14 @@ Scene needles_among_fixed(bool meet, std::uint64_t moving, std::uint64_t fixed) 
 }
 
 TEST(FixedNeedles, AreHitAtTheExactRateByThoseThatKeepTheirEnergies) {
-  expect_exact(needles_among_fixed(false, 40, 300), 50, 10, 0.01);
+  expect_exact(needles_among_fixed(false, 40, 300), 100, 12, 0.01);
 }
 TEST(FixedNeedles, AreHitAtTheExactRateByThoseThatShareTheirEnergy) {
-  expect_exact(needles_among_fixed(true, 60, 200), 50, 10, 0.01);
+  expect_exact(needles_among_fixed(true, 60, 200), 50, 12, 0.01);
 }
 // In 5 dimensions, 1.0509 times that of Gaussian velocities.
 TEST(FixedNeedles, AreHitAtTheExactRateByOne) {
-  expect_exact(needles_among_fixed(true, 1, 300), 50, 100, 0.015);
+  expect_exact(needles_among_fixed(true, 1, 300), 100, 100, 0.015);
 }
 
 TEST(SpheresOfSizes, HaveThePressureOfTheirFluid) {

@@ -1,4 +1,5 @@
 // A scene that was restored from a file has to be one that a scene file could describe.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -68,9 +69,28 @@ side = "high"
 temperature = 3
 )";
 
+// Each number that may be drawn, by a distribution with a mean and by a power law.
+std::string drawn_species() {
+  const std::string cut =
+      R"( = { distribution = "lognormal", mean = 1, width = 0.1, min = 0.5, max = 2 })";
+  const std::string power = R"( = { distribution = "powerlaw", min = 1, max = 2, exponent = 2 })";
+  std::string out = "needles.box = 9\nuntil.time = 1\n";
+  const auto add = [&](const std::string& numbers) {
+    out += fmt::format("[[species]]\nname = \"{}\"\ncount = 3\n{}\n", out.size(), numbers);
+  };
+  for (const std::string& how : {cut, power}) {
+    for (const char* number : {"length", "mass", "k", "inertia"}) add(number + how);
+    add("diameter" + how);
+  }
+  add("diameter = { aspect = 3 }\nmass = { density = 2 }");
+  add("fixed = true\noverlap = true");
+  return out;
+}
+
 TEST(RestoredScene, HasAllKeys) {
+  const std::string drawn = drawn_species();
   std::set<std::string> seen;
-  for (const char* text : {rich, species, effects,
+  for (const char* text : {rich, species, effects, drawn.c_str(),
                            "needles = { count = 1, box = 3 }\nuntil.time = 1\n"
                            "driving.andersen = { rate = 0.5, temperature = 2 }\n"
                            "shear = { rate = 0.1, offset = 2 }",

@@ -75,10 +75,9 @@ TEST(Sizes, MayBeThoseOfSpheres) {
   const Scene scene = parsed(
       head + "length = 0\ndiameter = { distribution = \"uniform\", mean = 1, width = 0.2 }\n");
   EXPECT_TRUE(scene.composition().are_spheres());
-  EXPECT_EQ(
-      refused(head + "length = 0\ndiameter.aspect = 2\n"),
-      "s.toml: line 7: species.diameter.aspect = 2: needle 0 would have 0: expected one above "
-      "0, or a diameter, which makes it a sphere");
+  EXPECT_EQ(refused(head + "length = 0\ndiameter.aspect = 2\n"),
+            "s.toml: line 6: species.length = 0: needle 0 would have 0: expected one above "
+            "0, or a diameter, which makes it a sphere");
 }
 
 State state_of(std::size_t count) {

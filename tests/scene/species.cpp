@@ -98,7 +98,8 @@ TEST(BadSpecies, IsNamedWithItsLine) {
   const std::string temperature = "expected a temperature >= 0 (0, or from 1e-200 to 1e200)";
   const std::string name = "expected a name without control characters, not empty";
   const std::string keys =
-      "expected one of name, count, length, diameter, mass, k, inertia, t_tr, t_rot";
+      "expected one of name, count, length, diameter, mass, k, inertia, t_tr, t_rot, fixed, "
+      "overlap";
   const std::string either = "expected either file or temperatures to draw, not both";
   // The keys of [needles] in one section.
   const auto least_of = [](const std::string& key) {
@@ -237,7 +238,7 @@ TEST(BadSpecies, CannotBeMadeByOverrides) {
   EXPECT_EQ(message(least_species, {"initial.t_tr=5"}), "--set initial.t_tr=5: " + not_both);
   EXPECT_EQ(message(least_species, {"species.lenght=5"}),
             "--set species.lenght=5: expected one of name, count, length, diameter, mass, k, "
-            "inertia, t_tr, t_rot, "
+            "inertia, t_tr, t_rot, fixed, overlap, "
             "did you mean length?");
 }
 

@@ -145,24 +145,19 @@ TEST(BodyRates, AreThoseOfLognormalLengths) {
   }
 }
 
-// Bodies that are close to each other count as alike.
-TEST(BodyRates, DoNotDependOnHowManyAreAlike) {
-  constexpr std::size_t count = 3000;
+// Those that are close to each other count as alike.
+TEST(BodyRates, AreThoseOfTheSumOverAllPairsOfMany) {
+  constexpr std::size_t count = 300;
   const Composition composition({{.count = count}}, {});
-  BodyRates rates(composition);
-  std::vector<Member> members;
-  for (std::size_t n = 0; n < count; ++n) {
-    const double length = lognormal(0.02, n, count);
-    rates.add(0, needle(length, length, 6));
-    if (n % 10 == 5) members.push_back({0, needle(length, length, 6)});
+  for (const double width : {0.002, 0.3}) {
+    std::vector<Member> members;
+    for (std::size_t n = 0; n < count; ++n) {
+      const double length = lognormal(width, n, count);
+      members.push_back({0, needle(length, length, 6)});
+    }
+    const double expected = summed(composition, members)[0];
+    EXPECT_NEAR(found(composition, members)[0], expected, 1e-7 * expected) << width;
   }
-  // 300 of them, as of ten alike.
-  double all = 0, selves = 0;
-  for (const Member& a : members) {
-    for (const Member& b : members) all += 50 * rate_of_pair(a.body, b.body);
-    selves += 5 * rate_of_pair(a.body, a.body);
-  }
-  EXPECT_NEAR(rates.collisions(1)[0], all - selves, 1e-6 * all);
 }
 
 // Spheres of lognormal diameters, k of n quantiles, at a packing fraction.

@@ -17,7 +17,8 @@ using namespace from_value;
 using Shape = Distribution::Shape;
 
 constexpr const char* expected_shape = R"("uniform", "normal", "lognormal", "gamma" or "powerlaw")";
-constexpr ValueRange any_size{1e-200, 1e200};
+constexpr ValueRange any_size{1e-100, 1e100};
+constexpr const char* expected_size = "a number > 0 (from 1e-100 to 1e100)";
 
 template <auto quantity>
 Distribution& distribution_of(Scene& scene) {
@@ -42,7 +43,7 @@ void add_keys(const DrawnQuantity& its, std::vector<SceneKey>& to) {
   to.push_back({keys[0], Aspect::bodies, {}, expected_shape, [](Scene& s, V v, R) {
                   return store_shape(distribution_of<quantity>(s).shape, v);
                 }});
-  to.push_back({keys[1], Aspect::bodies, any_size, "a number > 0", [](Scene& s, V v, R r) {
+  to.push_back({keys[1], Aspect::bodies, any_size, expected_size, [](Scene& s, V v, R r) {
                   return store(distribution_of<quantity>(s).mean, number(v, r));
                 }});
   to.push_back(
@@ -51,10 +52,10 @@ void add_keys(const DrawnQuantity& its, std::vector<SceneKey>& to) {
        {0, 1},
        "the standard deviation over the mean, from 0 to 1",
        [](Scene& s, V v, R r) { return store(distribution_of<quantity>(s).width, number(v, r)); }});
-  to.push_back({keys[3], Aspect::bodies, any_size, "a number > 0", [](Scene& s, V v, R r) {
+  to.push_back({keys[3], Aspect::bodies, any_size, expected_size, [](Scene& s, V v, R r) {
                   return store(distribution_of<quantity>(s).least, number(v, r));
                 }});
-  to.push_back({keys[4], Aspect::bodies, any_size, "a number > 0", [](Scene& s, V v, R r) {
+  to.push_back({keys[4], Aspect::bodies, any_size, expected_size, [](Scene& s, V v, R r) {
                   return store(distribution_of<quantity>(s).greatest, number(v, r));
                 }});
   to.push_back({keys[5],
