@@ -71,7 +71,7 @@ TEST(CRods, MeetWhenTheirAxesAreHalfTheSumOfTheirDiametersApart) {
   }
 }
 
-TEST(CRods, SayWhichPairOverlapsOrMixesKinds) {
+TEST(CRods, SayWhichPairOverlaps) {
   const FallingPairs falling(2);
   const needlework_pairs pairs = falling.pairs();
   double time[2];
@@ -85,8 +85,6 @@ TEST(CRods, SayWhichPairOverlapsOrMixesKinds) {
   const double thin[] = {0.5, 0.5}, thick[] = {0.5, 4}, none[] = {0.5, 0};
   EXPECT_EQ(message(thin, thick),
             "pair 1: the rods overlap: their axes are 2 apart, less than 2.25");
-  EXPECT_EQ(message(thin, none).substr(0, 37), "pair 1: diameters 0.5 and 0: expected");
-  EXPECT_EQ(message(none, thin).substr(0, 37), "pair 1: diameters 0 and 0.5: expected");
 }
 
 TEST(CRods, HaveShapesRoomAndPressure) {

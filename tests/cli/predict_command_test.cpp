@@ -104,7 +104,7 @@ TEST_F(PredictCommand, TakesLengthsAndDiameters) {
                                  ",1,1,0.5,0.5\n" + crossed + ",3,1,0,0\n");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.out, "a,2,0,0\nb,5,0,0\nb,4.5,0,0\nb,5,0,0\n");
-  EXPECT_TRUE(run_on(crossed + ",1,1,0.5,0\n").complains("there is no contact between the two"));
+  EXPECT_EQ(run_on(crossed + ",1,1,0.5,0\n").out, "b,4.75,0,0\n");
   EXPECT_TRUE(run_on(crossed + ",1,1,12,12\n").complains("the rods overlap"));
 }
 

@@ -513,7 +513,7 @@ TEST_F(Formats, BadDataFilesAreNamed) {
        {"Velocities\n\n2", "Velocities\n\n1", "line 22: a second velocity of atom 1: expected"},
        {"4 5 7 0 7 8", "4 5 7 0 7", "line 22: 6 columns: expected 7"},
        {"0 1 0 0\n2", "0 1 0 0 1\n2", "line 16: 12 columns: expected 11, or 14 with images"},
-       {"\n1 1 1 2 3 1", "\n1 1 1 2 3 -2", "line 17: length = -2: expected a number > 0"}},
+       {"\n1 1 1 2 3 1", "\n1 1 1 2 3 -2", "line 16: length = -2: expected a number > 0"}},
       [&](const std::string& bad) { return complaint(bad); });
   EXPECT_EQ(complaint("something\nelse\n"),
             "expected a configuration of DynamO, extended XYZ, or a dump or data file of LAMMPS");

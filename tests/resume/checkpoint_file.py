@@ -104,6 +104,18 @@ class Fields:
             self.one(f"{name}.count", "u64")
             self.several(name, "f64", 6)
             self.optional(f"{name}.inertia", self.f64)
+            for number in ("length", "diameter", "mass", "k", "inertia"):
+                self.optional(f"{name}.drawn.{number}", distribution)
+            for number in ("density", "aspect"):
+                self.optional(f"{name}.drawn.{number}", self.f64)
+            for flag in ("drawn.homogeneous", "fixed", "overlap"):
+                self.one(f"{name}.{flag}", "u8")
+            self.optional(f"{name}.sizes", lambda name: self.several(name, "f64", 26))
+
+        def distribution(name):
+            self.one(f"{name}.shape", "u8")
+            for number in ("mean", "width", "least", "greatest", "exponent"):
+                self.optional(f"{name}.{number}", self.f64)
 
         def place(name):
             self.text(name)
@@ -114,6 +126,7 @@ class Fields:
             self.text(f"{name}.between")
             self.optional(f"{name}.epsilon", self.f64)
             self.optional(f"{name}.beta", self.f64)
+            self.one(f"{name}.meet", "u8")
 
         self.sequence("species", species)
         self.sequence("pairs", pair)
@@ -168,6 +181,7 @@ class Fields:
         self.optional("output.frames_every", self.f64)
         self.sequence("output.observables", self.text)
         self.optional("output.grid", lambda name: self.several(name, "i32", 3))
+        self.optional("output.size_classes", lambda name: self.one(name, "i32"))
         self.one("output.events", "u8")
         self.f64("output.checkpoint_every")
         self.text("text")

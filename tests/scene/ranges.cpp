@@ -37,8 +37,8 @@ TEST(RangeOfAKey, IsThatOfItsWords) {
     }
     if (least == std::numeric_limits<double>::lowest() || key.key == "frames") continue;
     // Keys of real numbers read both ends, and nothing beyond.
-    const bool is_whole =
-        key.key == "count" || key.key == "seed" || key.key == "threads" || key.key == "grid";
+    const bool is_whole = key.key == "count" || key.key == "seed" || key.key == "threads" ||
+                          key.key == "grid" || key.key == "size_classes";
     if (is_whole || key.key == "gravity") continue;
     EXPECT_TRUE(accepts(key, {least})) << key.section << "." << key.key;
     EXPECT_TRUE(accepts(key, {greatest})) << key.section << "." << key.key;

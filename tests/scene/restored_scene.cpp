@@ -44,6 +44,7 @@ series_every = 0.1
 frames_every = 0.5
 observables = ["fields"]
 grid = [2, 3, 4]
+size_classes = 3
 events = true
 checkpoint_every = 17
 )";
