@@ -165,6 +165,8 @@ TEST_F(OneValidity, OfACheckpoint) {
         });
     // A checkpoint has the sum of all counts as well, which is out of its range.
     if (!is_asked || each.rule == "more needles than ids") continue;
+    // Built in code, a distribution always has a shape.
+    if (each.rule == "distribution is missing") continue;
     ++refused;
     expect_place_and_message(test::refusal([&] { require_restored(scene); }),
                              "the scene: " + each.key, each.key, each);
