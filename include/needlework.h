@@ -176,8 +176,10 @@ enum needlework_stop {
   NEEDLEWORK_STOP_ENERGY = 2,
   NEEDLEWORK_STOP_WALL_TIME = 3,
   NEEDLEWORK_STOP_INTERRUPTED = 4,
-  NEEDLEWORK_STOP_NOTHING_CAN_HAPPEN = 5 /* and there is no limit on time below the largest,
-                                            2^62 mean free times, or 2^62 of a gas at rest */
+  NEEDLEWORK_STOP_NOTHING_CAN_HAPPEN = 5, /* and there is no limit on time below the largest,
+                                             2^62 mean free times, or 2^62 of a gas at rest */
+  NEEDLEWORK_STOP_WALLS_MEET = 6, /* walls with a velocity leave the longest body no more room */
+  NEEDLEWORK_STOP_JAMMED = 7      /* they press bodies together, which collide ever more often */
 };
 
 /* Runs until a limit is met, at once if it is met already. Limits count from the start of the

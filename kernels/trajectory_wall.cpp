@@ -28,7 +28,9 @@ class TrajectoryTip {
         arm_(tip == 0 ? approach.half : -approach.half) {
     const double rate = approach.wall.amplitude > 0 ? whole_turn * approach.wall.frequency : 0;
     const double swing = approach.wall.amplitude * rate;
-    speed_ = (trajectory.speed + approach.half * trajectory.turning + swing) * roundup;
+    speed_ = (trajectory.speed + approach.half * trajectory.turning + swing +
+              std::abs(approach.wall.velocity)) *
+             roundup;
     const double turned =
         approach.half * (trajectory.turning * trajectory.turning + trajectory.turning_faster);
     bend_ = (trajectory.acceleration + turned + swing * rate) * roundup;
@@ -56,9 +58,11 @@ class TrajectoryTip {
   double first(double from, double to) {
     from_ = from;
     until_ = to;
-    const double last = trajectory_.lasts;
+    // Where the wall comes to rest, the height has a kink.
+    const double last = trajectory_.lasts, kink = std::clamp(given_.wall.halt, 0.0, last);
     double out = INFINITY;
-    if (last > 0) search(0, last, 0, out);
+    if (kink > 0 && search(0, kink, 0, out)) return out;
+    if (last > kink) search(kink, last, 0, out);
     return out;
   }
 
@@ -67,7 +71,7 @@ class TrajectoryTip {
     const int axis = given_.wall.axis;
     const BodyState there = trajectory_.at(s);
     const WallSurface surface = surface_at(
-        given_.wall, given_.turns + DoubleDouble(given_.wall.frequency) * DoubleDouble(s));
+        given_.wall, given_.turns + DoubleDouble(given_.wall.frequency) * DoubleDouble(s), s);
     const double place = component(there.r, axis) + arm_ * component(there.u, axis);
     const double speed = component(there.v, axis) + arm_ * component(cross(there.w, there.u), axis);
     return {sign_ * (place - surface.place) - (zero_ + drift_ * s),
@@ -116,9 +120,10 @@ class TrajectoryTip {
 // Whether no tip comes to the wall while the trajectory is known. That is so for most needles.
 bool stays_away(const Trajectory& trajectory, const WallApproach& approach) {
   const WallPlane& wall = approach.wall;
-  const double height = wall.normal * (component(trajectory.at(0).r, wall.axis) - wall.place);
-  const double near =
-      approach.half + std::max(wall.amplitude, 0.0) + trajectory.speed * trajectory.lasts;
+  const double height =
+      wall.normal * (component(trajectory.at(0).r, wall.axis) - to_double(wall.place));
+  const double near = approach.half + std::max(wall.amplitude, 0.0) +
+                      (trajectory.speed + std::abs(wall.velocity)) * trajectory.lasts;
   return height > near * (1 + 0x1p-40) + 0x1p-40 * std::abs(height);
 }
 

@@ -52,9 +52,10 @@ Terms<DoubleDouble> terms_of(const WallApproach& a) {
   const int axis = a.wall.axis;
   const double sign = a.wall.normal;
   Terms<DoubleDouble> out;
-  const DoubleDouble place = two_sum(component(flight.r, axis), -a.wall.place);
+  const DoubleDouble place = DoubleDouble(component(flight.r, axis)) - a.wall.place;
+  const DoubleDouble speed = two_sum(component(flight.v, axis), -a.wall.velocity);
   out.z = {sign * place.hi, sign * place.lo};
-  out.v = sign * component(flight.v, axis);
+  out.v = {sign * speed.hi, sign * speed.lo};
   out.g = sign * a.gravity;
   out.cosine = two_prod(sign * a.half, component(flight.u, axis));
   if (flight.omega > 0) {
@@ -80,8 +81,8 @@ Terms<double> rough_terms_of(const WallApproach& a) {
   const Flight& flight = *a.flight;
   const int axis = a.wall.axis;
   const double sign = a.wall.normal, half = sign * a.half;
-  return {.z = sign * (component(flight.r, axis) - a.wall.place),
-          .v = sign * component(flight.v, axis),
+  return {.z = sign * ((component(flight.r, axis) - a.wall.place.hi) - a.wall.place.lo),
+          .v = sign * (component(flight.v, axis) - a.wall.velocity),
           .g = sign * a.gravity,
           .cosine = half * component(flight.u, axis),
           .sine = half * component(flight.p, axis),
@@ -220,6 +221,15 @@ class TipSearch {
       : approach_(approach), tip_(tip), tick_(resolution / 8) {
     if (!approach.is_touching(tip)) exact_zero_ = DoubleDouble();
   }
+  // The same tip from the time on at which the wall comes to rest, if it has not touched before.
+  // What is called height 0 stays so.
+  TipSearch(TipSearch& moving, Approach& rests, double halt)
+      : approach_(rests),
+        tip_(moving.tip_),
+        tick_(moving.tick_),
+        begin_(halt),
+        rough_zero_(moving.rough_zero_),
+        exact_zero_(moving.exact_zero()) {}
 
   // From the tip's height at the record: its contact may be then, at 0, or come no earlier than
   // begin().
@@ -328,25 +338,47 @@ class TipSearch {
   std::optional<DoubleDouble> exact_zero_;
 };
 
+// A needle and a wall that comes to rest before the search ends, from then on.
+struct Halted {
+  Halted(const WallApproach& moving, double to) : given(moving) {
+    given.wall = moving.wall.halted();
+    approach.emplace(given);
+    enter = approach->time_to_come_near(to);
+  }
+  Halted(const Halted&) = delete;
+
+  WallApproach given;
+  std::optional<Approach> approach;
+  double enter;
+};
+
 }  // namespace
 
-WallSurface surface_at(const WallPlane& wall, const DoubleDouble& turns) {
-  if (!(wall.amplitude > 0)) return {wall.place, 0};
+WallSurface surface_at(const WallPlane& wall, const DoubleDouble& turns, double s) {
+  if (s >= wall.halt) return {to_double(wall.halt_place), 0};
+  if (wall.velocity != 0)
+    return {to_double(wall.place + two_prod(wall.velocity, s)), wall.velocity};
+  const double place = to_double(wall.place);
+  if (!(wall.amplitude > 0)) return {place, 0};
   const SineCosine<DoubleDouble> sc = sine_cosine(exact_two_pi * turns);
-  return {wall.place + wall.amplitude * to_double(sc.sine),
+  return {place + wall.amplitude * to_double(sc.sine),
           wall.amplitude * (two_pi * wall.frequency) * to_double(sc.cosine)};
 }
 
 WallContact first_wall_contact(const WallApproach& given, double from, double to) {
   WallContact out;
   Approach approach(given);
-  const double enter = approach.time_to_come_near(to);
-  if (std::isinf(enter)) return out;
+  const double enter = approach.time_to_come_near(to), halt = given.wall.halt;
+  std::optional<Halted> halted;
+  if (halt <= to) halted.emplace(given, to);
+  if (std::isinf(enter) && !halted) return out;
   for (int tip = 0; tip < 2; ++tip) {
     TipSearch search(approach, tip, given.resolution);
     const TipSearch::Start start = search.start();
     if (start == TipSearch::Start::across) return {.found = true, .tip = tip, .across = true};
-    const double at = start == TipSearch::Start::hits ? 0 : search.first(enter, from, to);
+    double at = start == TipSearch::Start::hits ? 0 : search.first(enter, from, std::min(to, halt));
+    if (halt <= to && !(at <= halt))
+      at = TipSearch(search, *halted->approach, halt).first(halted->enter, from, to);
     if (std::isinf(at) || (out.found && at >= out.elapsed)) continue;
     out.found = true;
     out.elapsed = at;

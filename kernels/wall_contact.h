@@ -4,23 +4,49 @@
 //
 //   h(s) = z + v s + g s^2 / 2 +- (l/2) u_n(s) - A sin(2 pi (turns + f s)),
 //
-// with s the time since the needle's record and u_n the component of its director. The first
+// with s the time since the needle's record, v relative to a surface of constant velocity, and u_n
+// the component of its director. Where such a surface comes to rest, h has a kink: it is searched
+// up to there, and from there on with the surface at rest, so that no step goes over it. The first
 // contact is where it falls to 0. A bound on |h''| makes each step towards it safe: no contact is
 // jumped over, and none is lost however flat it is. What double cannot decide goes to
 // double-double.
 #pragma once
 
+#include <limits>
+
 #include "kernels/contact_function.h"
 
 namespace needlework::kernels {
 
-/// A wall as the axis along its normal has it. It is at rest unless its amplitude is above 0.
+/// A wall as the axis along its normal has it. It is at rest unless its amplitude is above 0 or it
+/// has a velocity.
 struct WallPlane {
   int axis = 0;          ///< 0 to 2
   int normal = 1;        ///< sign of the normal into the gas: 1 at the low side, -1 at the high one
-  double place = 0;      ///< coordinate, of the middle of its motion [L]
+  DoubleDouble place;    ///< coordinate, of the middle of its motion, at the record [L]
   double amplitude = 0;  ///< of its motion along the positive axis, A sin(2 pi turns) [L]
   double frequency = 0;  ///< turns per time [1 / time]
+  double velocity = 0;   ///< along the positive axis, from the record until it halts [L / time]
+  double halt = std::numeric_limits<double>::infinity();  ///< time from the record to then
+  DoubleDouble halt_place;                                ///< where it rests from then on [L]
+
+  /// The same from `halt` on.
+  WallPlane halted() const {
+    WallPlane out = *this;
+    out.place = halt_place;
+    out.velocity = 0;
+    out.halt = std::numeric_limits<double>::infinity();
+    return out;
+  }
+  /// The wall that stops lines where this one stops bodies of a radius [L]. Of one at rest, its
+  /// place is a double.
+  WallPlane for_radius(double radius) const {
+    WallPlane out = *this;
+    out.place = place + DoubleDouble(normal * radius);
+    if (velocity == 0) out.place = to_double(out.place);
+    out.halt_place = to_double(halt_place + DoubleDouble(normal * radius));
+    return out;
+  }
 };
 
 /// A needle from its record on, and a wall.
@@ -53,11 +79,11 @@ struct WallContact {
 /// contacts beyond `to`.
 WallContact first_wall_contact(const WallApproach& approach, double from, double to);
 
-/// The wall's surface at a phase.
+/// The wall's surface at a time after the record, at which its phase is `turns`.
 struct WallSurface {
   double place;     ///< coordinate [L]
   double velocity;  ///< along the positive axis [L / time]
 };
-WallSurface surface_at(const WallPlane& wall, const DoubleDouble& turns);
+WallSurface surface_at(const WallPlane& wall, const DoubleDouble& turns, double s = 0);
 
 }  // namespace needlework::kernels

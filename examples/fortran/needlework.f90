@@ -12,7 +12,8 @@ module needlework
   integer(c_int), parameter :: needlework_stop_time = 0, needlework_stop_collisions = 1, &
                                needlework_stop_energy = 2, needlework_stop_wall_time = 3, &
                                needlework_stop_interrupted = 4, &
-                               needlework_stop_nothing_can_happen = 5
+                               needlework_stop_nothing_can_happen = 5, &
+                               needlework_stop_walls_meet = 6, needlework_stop_jammed = 7
   integer(c_int), parameter :: needlework_data_bytes = 0, needlework_data_json = 1
 
   type, bind(c) :: needlework_error

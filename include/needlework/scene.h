@@ -55,12 +55,17 @@ struct Scene {
     std::optional<double> beta;          ///< tangential restitution, [-1, 1]
     bool meet = true;                    ///< or they pass through each other
   };
-  /// Motion of a wall along its axis: its surface is at A sin(2 pi f t + phase) from where the wall
-  /// is, t from the start of the scene.
+  /// Motion of a wall, t from the start of the scene. Along its axis, its surface is at
+  /// A sin(2 pi f t + phase) from where the wall is, or at velocity * t until it comes to rest; or
+  /// it slides in its plane, of a thermal wall alone.
   struct WallMotion {
-    double amplitude = 0;  ///< A >= 0 [L]
-    double frequency = 1;  ///< f > 0 [cycles per time]
-    double phase = 0;      ///< [radians]
+    double amplitude = 0;            ///< A >= 0 [L]
+    double frequency = 1;            ///< f > 0 [cycles per time]
+    double phase = 0;                ///< [radians]
+    std::optional<double> velocity;  ///< along the positive axis, on both sides [L / time]
+    std::optional<double> stop_at;   ///< coordinate at which it comes to rest [L]
+    /// Velocity along the two other axes, in the order x, y, z [L / time]
+    std::optional<std::array<double, 2>> tangential;
   };
   /// A smooth hard wall at an edge of the box, or one at both. Needles touch it by their tips.
   struct Wall {
@@ -163,6 +168,8 @@ struct Scene {
   std::vector<WallSide> wall_sides() const;
   /// Along which axes the box is periodic: those without walls.
   std::array<bool, 3> periodic() const;
+  /// Whether walls have a velocity, so that edges of the box move.
+  bool has_moving_walls() const;
 
   /// What the gas is made of, with everything that the short form leaves unsaid.
   Composition composition() const;

@@ -41,6 +41,8 @@ struct OwnBodies {
 /// for each needle.
 struct State {
   std::array<double, 3> box{};                     ///< edges [L]
+  std::array<double, 3> low{};                     ///< where the low edges are: 0, but where a wall
+                                                   ///< has moved one; a start moves all to 0 [L]
   std::array<bool, 3> periodic{true, true, true};  ///< along which axes the box is; along the
                                                    ///< others, walls or open sides end it
   double slide = 0;       ///< of the row of boxes above along x, from 0 to the edge [L]

@@ -4,7 +4,16 @@
 namespace needlework {
 
 /// Why Simulation::advance() returned.
-enum class Stop { time, collisions, energy, wall_time, interrupted, nothing_can_happen };
+enum class Stop {
+  time,
+  collisions,
+  energy,
+  wall_time,
+  interrupted,
+  nothing_can_happen,
+  walls_meet,  ///< walls with a velocity leave the longest body no more room
+  jammed       ///< they press bodies together, which collide ever more often in no time
+};
 
 /// Its name, as enumerated.
 constexpr const char* name_of(Stop stop) {
@@ -19,6 +28,10 @@ constexpr const char* name_of(Stop stop) {
       return "wall_time";
     case Stop::interrupted:
       return "interrupted";
+    case Stop::walls_meet:
+      return "walls_meet";
+    case Stop::jammed:
+      return "jammed";
     case Stop::nothing_can_happen:
       break;
   }

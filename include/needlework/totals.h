@@ -77,8 +77,10 @@ struct SpeciesTotals {
 /// What has happened at one object of a source of events, such as a wall, since the start of a run.
 struct ObjectTotals {
   std::uint64_t events = 0;
-  double impulse = 0;         ///< sum of |J| [m L / time]
-  double normal_impulse = 0;  ///< sum of their components along the normal of the object
+  double impulse = 0;                ///< sum of |J| [m L / time]
+  double normal_impulse = 0;         ///< sum of their components along the normal of the object
+  std::array<double, 3> momentum{};  ///< sum of J [m L / time]
+  double work = 0;                   ///< done by its motion [energy]
 };
 
 /// Hits of needles on one wall since the start of a run.
@@ -88,6 +90,7 @@ struct WallTotals {
   std::uint64_t hits = 0;
   double impulse = 0, normal_impulse = 0, area = 0, phase = 0, energy = 0;
   double pressure = std::numeric_limits<double>::quiet_NaN();
+  double place = 0, work = 0, impulse_x = 0, impulse_y = 0, impulse_z = 0;
 
   template <class Visit>
   constexpr void for_each(Visit&& visit) const {
@@ -110,6 +113,15 @@ struct WallTotals {
                     "Mean over the run, impulse along the normal over area and time; NaN at its "
                     "start"},
           pressure);
+    visit(Described{"place", unit::length, "Place of its surface along its axis now"}, place);
+    visit(Described{"work", unit::energy,
+                    "Of its energy, what its motion has done as work, per needle; the rest is "
+                    "heat, or what its restitution takes"},
+          work);
+    visit(Described{"impulse_x", unit::momentum, "Sum of the impulses on the gas, along x"},
+          impulse_x);
+    visit(Described{"impulse_y", unit::momentum, "The same along y"}, impulse_y);
+    visit(Described{"impulse_z", unit::momentum, "The same along z"}, impulse_z);
   }
 };
 

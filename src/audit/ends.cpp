@@ -170,6 +170,10 @@ void Audit::check_end(const Scene::Until& until, Stop reason, double time) {
     case Stop::nothing_can_happen:
       right &= is_at_rest();
       break;
+    case Stop::walls_meet:
+    case Stop::jammed:
+      right &= std::ranges::any_of(walls_, [](const Wall& wall) { return wall.velocity != 0; });
+      break;
     case Stop::wall_time:
     case Stop::interrupted:
       return;

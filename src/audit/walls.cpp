@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
+#include <limits>
 
 #include "src/audit/there.h"
 
@@ -24,6 +25,24 @@ double phase_at(const Wall& wall, const Instant& time) {
   return two_pi * static_cast<double>(part(turns)) + wall.phase;
 }
 
+// Time since the start, in epochs.
+Quad age(const Instant& time) { return Quad(static_cast<double>(time.epoch)) + Quad(time.offset); }
+
+// When a wall with a velocity comes to rest.
+Quad halt_of(const Wall& wall) {
+  return (Quad(wall.stop) - Quad(wall.place)) / Quad(wall.velocity);
+}
+
+bool is_moving(const Wall& wall, const Instant& now) {
+  return wall.velocity != 0 && !(wall.stops && age(now) >= halt_of(wall));
+}
+
+// Place of the surface of a wall, but for what it shakes.
+Quad place_at(const Wall& wall, const Instant& now) {
+  if (is_moving(wall, now)) return Quad(wall.place) + Quad(wall.velocity) * age(now);
+  return wall.velocity != 0 ? wall.stop : wall.place;
+}
+
 }  // namespace
 
 std::vector<Wall> walls_of(const std::vector<Scene::Wall>& walls, const std::array<double, 3>& box,
@@ -38,6 +57,9 @@ std::vector<Wall> walls_of(const std::vector<Scene::Wall>& walls, const std::arr
       wall.amplitude = each.motion->amplitude / length_unit;
       wall.frequency = each.motion->frequency * epoch_length;
       wall.phase = each.motion->phase;
+      wall.velocity = each.motion->velocity.value_or(0) * (epoch_length / length_unit);
+      wall.stops = each.motion->stop_at.has_value();
+      wall.stop = each.motion->stop_at.value_or(0) / length_unit;
     }
     for (const bool high : {false, true}) {
       if (each.side == (high ? "low" : "high")) continue;
@@ -53,7 +75,9 @@ TipFlight::TipFlight(const Needle& needle, const Vector<double>& gravity, const 
     : axis_(wall.axis),
       sign_(wall.sign()),
       // The caps of rods touch with half their diameter.
-      centre_(needle.record.r[wall.axis] - wall.place - sign_ * 0.5 * needle.body.diameter),
+      centre_(static_cast<double>(Quad(needle.record.r[wall.axis]) -
+                                  place_at(wall, needle.record.time)) -
+              sign_ * 0.5 * needle.body.diameter),
       speed_(needle.record.v[wall.axis]),
       half_fall_(gravity[wall.axis] / 2),
       arm_(tip * needle.body.length / 2),
@@ -65,7 +89,12 @@ TipFlight::TipFlight(const Needle& needle, const Vector<double>& gravity, const 
       angle_(wall.amplitude > 0 ? phase_at(wall, needle.record.time) : 0),
       bend_(2 * std::abs(half_fall_) +
             std::abs(arm_) * omega_ * omega_ * std::hypot(along_, across_) +
-            amplitude_ * turn_ * turn_) {}
+            amplitude_ * turn_ * turn_) {
+  if (!is_moving(wall, needle.record.time)) return;
+  drift_ = wall.velocity;
+  halt_ = wall.stops ? static_cast<double>(halt_of(wall) - age(needle.record.time))
+                     : std::numeric_limits<double>::infinity();
+}
 
 TipFlight::TipFlight(const Guide& guide, double duration, const Vector<double>& gravity,
                      const Wall& wall, int tip)
@@ -92,12 +121,14 @@ TipFlight::Point TipFlight::tip_at(double s) const {
 }
 
 double TipFlight::height(double s) const {
-  const double surface = amplitude_ > 0 ? amplitude_ * std::sin(phase(s)) : 0;
+  const double shaken = amplitude_ > 0 ? amplitude_ * std::sin(phase(s)) : 0;
+  const double surface = shaken + drift_ * std::min(s, halt_);
   return sign_ * (tip_at(s).place - surface);
 }
 
 double TipFlight::rate(double s) const {
-  const double surface = amplitude_ > 0 ? amplitude_ * turn_ * std::cos(phase(s)) : 0;
+  const double shaken = amplitude_ > 0 ? amplitude_ * turn_ * std::cos(phase(s)) : 0;
+  const double surface = shaken + (s < halt_ ? drift_ : 0);
   return sign_ * (tip_at(s).velocity - surface);
 }
 
@@ -107,6 +138,7 @@ std::optional<double> TipFlight::crossing(double from, double to, double toleran
     double begin, end;
   };
   std::vector<Stretch> stretches{{from, to}};
+  if (from < halt_ && halt_ < to) stretches = {{halt_, to}, {from, halt_}};  // a kink between
   while (!stretches.empty()) {
     const Stretch stretch = stretches.back();
     stretches.pop_back();
@@ -144,7 +176,8 @@ double excess_over_wall_rule(const Needle& needle, const Vector<double>& gravity
 
   // V_n = (v + s w x u) . n relative to the surface, and 1/m + (L^2 / 4 I)(1 - (u . n)^2).
   const double phase = phase_at(wall, now);
-  const Quad surface = wall.amplitude * two_pi * wall.frequency * std::cos(phase);
+  const Quad surface = wall.amplitude * two_pi * wall.frequency * std::cos(phase) +
+                       (is_moving(wall, now) ? wall.velocity : 0);
   const Quad lift = there.u[wall.axis];
   const Vector<Quad> turn = cross(there.w, there.u);
   const Quad tip = n * (there.v[wall.axis] + turn[wall.axis] * arm);

@@ -18,6 +18,9 @@ struct Wall {
   double amplitude = 0;  ///< of its motion [L]
   double frequency = 0;  ///< [cycles / epoch]
   double phase = 0;      ///< [radians]
+  double velocity = 0;   ///< along the axis, from time 0 until it comes to rest [L / epoch]
+  double stop = 0;       ///< where, if it does [L]
+  bool stops = false;
   double epsilon = 1;
   bool draws = false;  ///< all velocities, from a distribution; no rule tells them
 
@@ -54,7 +57,8 @@ class TipFlight {
   int index_ = 0, axis_;
   double sign_, centre_, speed_, half_fall_, arm_, along_, across_, omega_;
   double amplitude_, turn_, angle_;
-  double bend_;  ///< bound on the second derivative
+  double drift_ = 0, halt_ = 0;  ///< velocity of the surface, and when it comes to rest
+  double bend_;                  ///< bound on the second derivative
 };
 
 /// Largest difference of a reported hit and of the record after it from the rule, in units of what

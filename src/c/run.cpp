@@ -26,6 +26,8 @@ static_assert(static_cast<int>(Stop::energy) == NEEDLEWORK_STOP_ENERGY);
 static_assert(static_cast<int>(Stop::wall_time) == NEEDLEWORK_STOP_WALL_TIME);
 static_assert(static_cast<int>(Stop::interrupted) == NEEDLEWORK_STOP_INTERRUPTED);
 static_assert(static_cast<int>(Stop::nothing_can_happen) == NEEDLEWORK_STOP_NOTHING_CAN_HAPPEN);
+static_assert(static_cast<int>(Stop::walls_meet) == NEEDLEWORK_STOP_WALLS_MEET);
+static_assert(static_cast<int>(Stop::jammed) == NEEDLEWORK_STOP_JAMMED);
 
 runs::Limits limits_of(const needlework_limits& limits) {
   runs::Limits out;

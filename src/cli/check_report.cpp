@@ -165,11 +165,22 @@ const char* name_of_axis(const Scene::WallSide& side) {
 const char* name_of_side(const Scene::WallSide& side) { return side.is_high ? "high" : "low"; }
 
 std::string wall_text(const Scene::Wall& wall) {
-  if (wall.temperature) return fmt::format("thermal, at temperature {:g}", *wall.temperature);
+  if (wall.temperature) {
+    const std::string thermal = fmt::format("thermal, at temperature {:g}", *wall.temperature);
+    if (!wall.motion || !wall.motion->tangential) return thermal;
+    const auto [first, second] = *wall.motion->tangential;
+    const bool is_x = wall.axis == "x", is_z = wall.axis == "z";
+    return thermal + fmt::format(", slides at {:g} along {} and {:g} along {}", first,
+                                 is_x ? "y" : "x", second, is_z ? "y" : "z");
+  }
   std::string text = wall.epsilon < 1 ? fmt::format("inelastic (epsilon = {:g})", wall.epsilon)
                                       : "elastic (epsilon = 1)";
   if (!wall.motion) return text;
   const Scene::WallMotion& motion = *wall.motion;
+  if (motion.velocity) {
+    text += fmt::format(", moves at {:g} along {}", *motion.velocity, wall.axis);
+    return motion.stop_at ? text + fmt::format(" until it stops at {:g}", *motion.stop_at) : text;
+  }
   return text + fmt::format(", moves by {:g} sin(2 pi {:g} t + {:g})", motion.amplitude,
                             motion.frequency, motion.phase);
 }
@@ -286,9 +297,7 @@ Json walls_json(const runs::Explanation& e) {
     const Scene::Wall& given = e.scene.walls[wall.side.entry];
     Json motion;
     if (given.motion) {
-      motion = {{"amplitude", given.motion->amplitude},
-                {"frequency", given.motion->frequency},
-                {"phase", given.motion->phase}};
+      motion = json::motion_of(*given.motion);
     }
     out.push_back({{"axis", name_of_axis(wall.side)},
                    {"side", name_of_side(wall.side)},

@@ -47,6 +47,10 @@ std::string reason(const runs::RunResult& result) {
       return "stopped at the limit of wall time";
     case Stop::interrupted:
       return "stopped by a signal";
+    case Stop::walls_meet:
+      return "ran until the walls left no more room";
+    case Stop::jammed:
+      return "jammed between its walls";
     case Stop::nothing_can_happen:
       break;
   }
@@ -253,10 +257,17 @@ std::string rod_line(const Report& report) {
 }
 
 std::string wall_lines(const Report& report) {
+  // What says nothing of walls that are at rest, and not thermal.
+  constexpr std::array<std::string_view, 5> of_motion = {"place", "work", "impulse_x", "impulse_y",
+                                                         "impulse_z"};
+  const std::vector<Scene::WallSide> sides = report.scene.wall_sides();
   std::string text;
-  for (const WallTotals& wall : report.simulation.wall_totals()) {
+  for (std::size_t n = 0; n < sides.size(); ++n) {
+    const WallTotals wall = report.simulation.wall_totals()[n];
+    const Scene::Wall& given = report.scene.walls[sides[n].entry];
+    const bool is_plain = !given.motion && !given.temperature;
     text += line(text.empty() ? "walls" : "", "{} {}: {}", axis_name(wall), side_name(wall),
-                 numbers_text(wall));
+                 is_plain ? numbers_text(wall, of_motion) : numbers_text(wall));
   }
   return text;
 }

@@ -98,7 +98,10 @@ Scene elastic(const Scene& scene, const State& state) {
     wall.epsilon = 1;
     wall.temperature.reset();
     // As good as at rest, where it is at the start.
-    if (wall.motion) wall.motion->frequency = 1e-100;
+    if (!wall.motion) continue;
+    const bool shakes = wall.motion->amplitude > 0;
+    if (shakes) wall.motion->frequency = 1e-100;
+    if (!shakes) wall.motion.reset();
   }
   // Without gravity, an open side has a wall, too.
   for (const Scene::WallSide& side : scene.wall_sides()) {

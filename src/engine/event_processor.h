@@ -362,10 +362,9 @@ void EventProcessor<S, M>::happen(const Event& event) {
   tally_.energy += quanta;
   tally_.count_source(event.source, quanta, run_.sources.size());
   if (source.objects() > 0) {
-    tally_.count_object(
-        run_.first_object[event.source] + outcome.object,
-        {quanta, std::sqrt(dot(outcome.impulse, outcome.impulse)), outcome.normal_impulse},
-        run_.objects);
+    tally_.count_object(run_.first_object[event.source] + outcome.object,
+                        {quanta, outcome.normal_impulse, outcome.work, outcome.impulse},
+                        run_.objects);
   }
   schedule(i, place(i));
   if (run_.listeners.any()) run_.listeners.report(gas_, happening, i, no_needle, reports);

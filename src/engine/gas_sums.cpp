@@ -257,17 +257,18 @@ Totals totals_of(const Gas& gas, Time now, int threads) {
   return out;
 }
 
-double mean_free_time_of(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
+double mean_free_time_of(const Gas& gas, const std::vector<SumsOfSquares>& sums, Time now) {
+  const double volume = gas.volume_at(now);
   std::vector<SpeciesTemperatures> temperatures;
   for (const SpeciesTotals& of : species_totals(gas, sums)) {
     temperatures.push_back({of.t_tr, of.t_rot});
   }
   const std::optional<std::size_t> only = gas.composition.only();
   if (!only || gas.composition.has_width() || !gas.composition.all_meet()) {
-    return mean_free_time(gas.composition, gas.box.volume(), temperatures);
+    return mean_free_time(gas.composition, volume, temperatures);
   }
   const Species& species = gas.composition[*only];
-  return mean_free_time({.density = gas.density(),
+  return mean_free_time({.density = static_cast<double>(gas.size()) / volume,
                          .t_tr = temperatures[*only].t_tr,
                          .t_rot = temperatures[*only].t_rot,
                          .length = species.length,

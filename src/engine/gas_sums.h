@@ -56,7 +56,7 @@ Totals totals_of(const Gas& gas, Time now, int threads);
 /// Of all needles. [energy]
 double translational_temperature(const Gas& gas, const std::vector<SumsOfSquares>& sums);
 /// By kinetic theory, for what these sums say of temperatures. [time]
-double mean_free_time_of(const Gas& gas, const std::vector<SumsOfSquares>& sums);
+double mean_free_time_of(const Gas& gas, const std::vector<SumsOfSquares>& sums, Time now);
 /// What tells whether searches can follow needles with these sums of squares; `moves` is whether
 /// any needle does.
 GasNumbers numbers_of(const Gas& gas, const std::vector<SumsOfSquares>& sums, bool moves);

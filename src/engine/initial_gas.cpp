@@ -168,7 +168,9 @@ void require_inside(const Scene& scene, const Gas& gas) {
       throw InputError(fmt::format(
           "state: needle {}: a tip is {:.3g} beyond the wall {}-{}: expected both inside{}",
           gas.ids[i].value, beyond, "xyz"[side.axis], side.is_high ? "high" : "low",
-          scene.walls[side.entry].motion ? ", where walls.motion.phase puts it at the start" : ""));
+          gaps[side.axis].low != 0 || gaps[side.axis].high != 0
+              ? ", where walls.motion.phase puts it at the start"
+              : ""));
     }
   }
 }
@@ -290,6 +292,7 @@ Gas make_gas(const Scene& scene, const State& initial) {
   if (!initial.id.empty()) check_size(initial.id.size(), count, "id");
   Gas gas;
   gas.box = Box(initial.box, scene.periodic());
+  gas.moving_edges = moving_edges_of(scene, initial.box);
   set_gravity(gas, scene);
   set_shear(gas, scene, slide_of(scene, initial));
   const auto velocities = velocities_of(gas, initial);
@@ -320,7 +323,7 @@ Gas make_gas(const Scene& scene, const State& initial) {
     StopRequest::check_in_turn(i);
     const std::size_t from = order[i];
     kernels::Flight& flight = gas.records[i].flight;
-    flight.r = vector_of(initial.position[from]);
+    flight.r = vector_of(initial.position[from]) - vector_of(initial.low);
     flight.v = vector_of(velocities[from]);
     flight.u = vector_of(initial.orientation[from]);
     flight.w = vector_of(initial.angular_velocity[from]);

@@ -18,6 +18,10 @@ StopConditions::StopConditions(const Run& run, const Scene::Until& until)
       energy(until.energy_ratio ? *until.energy_ratio * run.initial_energy
                                 : -std::numeric_limits<double>::infinity()),
       wall(std::chrono::steady_clock::time_point::max()) {
+  if (run.walls_meet < time) {
+    time = run.walls_meet;
+    walls_meet = true;
+  }
   if (!until.time && !until.collisions_per_needle && !until.energy_ratio && !until.wall_s) {
     throw InputError("until: expected at least one end condition");
   }
@@ -44,7 +48,7 @@ StopConditions::StopConditions(const Run& run, const Scene::Until& until)
 }
 
 std::optional<Stop> StopConditions::reached_without_events(Run& run) const {
-  if (time < run.now) return Stop::time;
+  if (time < run.now) return at_time();
   if (time == Time::never()) {
     if (run.collisionless()) return Stop::nothing_can_happen;
     // Sources may have events for ever, but no collision.
@@ -55,10 +59,11 @@ std::optional<Stop> StopConditions::reached_without_events(Run& run) const {
   if (!run.nothing_can_happen()) return std::nullopt;
   require_images(run.gas, time);
   run.now = time;
-  return Stop::time;
+  return at_time();
 }
 
-std::optional<Stop> StopConditions::called_off(const Run& run) const {
+std::optional<Stop> StopConditions::called_off(Run& run) const {
+  if (run.gas.moving_edges && run.effects.width && run.is_jammed()) return Stop::jammed;
   if (run.interrupted) return Stop::interrupted;
   if (wall != wall.max() && std::chrono::steady_clock::now() >= wall) return Stop::wall_time;
   if (time == Time::never() && run.is_quiet()) return Stop::nothing_can_happen;

@@ -26,9 +26,12 @@ struct StopConditions {
   }
   /// Whether the caller has interrupted the run, the limit on wall time has passed, or no limit on
   /// time will end a gas without collisions.
-  std::optional<Stop> called_off(const Run& run) const;
+  std::optional<Stop> called_off(Run& run) const;
+  /// Why a run that has come to the limit of time has ended.
+  Stop at_time() const { return walls_meet ? Stop::walls_meet : Stop::time; }
 
-  Time time;  ///< Time::never(): no limit
+  Time time;                ///< Time::never(): no limit
+  bool walls_meet = false;  ///< then
   double collisions;
   double energy;
   std::chrono::steady_clock::time_point wall;

@@ -32,7 +32,8 @@ void copy_state(const Gas& gas, Time at, kernels::Isa isa, const std::vector<Nee
                 State& out) {
   using C = kernels::FlightColumns;
   const Box box = gas.box_at(at);
-  out.box = box.edges();
+  out.box = gas.edges_at(at);
+  out.low = gas.low_at(at);
   out.periodic = box.periodic();
   out.slide = to_double(box.row_above().offset);
   out.shear_rate = gas.shear ? gas.shear->rate() : 0;

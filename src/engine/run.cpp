@@ -31,7 +31,9 @@ bool is_at_rest(const Record& record) {
 }
 
 // The walls in the order in which reports count them.
-std::vector<Wall> walls_of(const Scene& scene, const Box& box) {
+std::vector<Wall> walls_of(const Scene& scene, const Gas& gas) {
+  const Box& box = gas.box;
+  const std::optional<MovingEdges>& moving = gas.moving_edges;
   std::vector<Wall> out;
   for (const Scene::WallSide& side : scene.wall_sides()) {
     const Scene::Wall& given = scene.walls[side.entry];
@@ -42,6 +44,14 @@ std::vector<Wall> walls_of(const Scene& scene, const Box& box) {
     wall.epsilon = given.epsilon;
     wall.temperature = given.temperature.value_or(0);
     if (!given.motion) continue;
+    if (moving) wall.edge = moving->of(side.axis, side.is_high);
+    if (given.motion->tangential) {
+      // Along the two other axes, in their order.
+      const auto [first, second] = *given.motion->tangential;
+      wall.sliding = side.axis == 0   ? Vec3d{0, first, second}
+                     : side.axis == 1 ? Vec3d{first, 0, second}
+                                      : Vec3d{first, second, 0};
+    }
     wall.plane.amplitude = given.motion->amplitude;
     wall.plane.frequency = given.motion->frequency;
     const double turns = given.motion->phase / (2 * std::numbers::pi);
@@ -117,7 +127,7 @@ void Run::add_effects(const Scene& scene) {
     if (effects.sliding)
       contact_time_of_walls.advice =
           "a longer collisions.sliding_below helps, unless it rests on the wall";
-    add_source(std::make_unique<Walls>(gas, walls_of(scene, gas.box), scene.needles.seed,
+    add_source(std::make_unique<Walls>(gas, walls_of(scene, gas), scene.needles.seed,
                                        contact_time_of_walls));
   }
   const Scene::Driving& driving = scene.driving;
@@ -133,6 +143,12 @@ void Run::add_effects(const Scene& scene) {
                                     .rotational = driving.kicks->rotational,
                                     .seed = scene.needles.seed});
   }
+}
+
+void Run::find_meeting_of_walls(const Scene& scene) {
+  if (!gas.moving_edges) return;
+  if (const auto meeting = meeting_of(scene, gas.box.edges()))
+    walls_meet = gas.clock.add({}, meeting->time);
 }
 
 void Run::find_next_kick() {
@@ -160,6 +176,7 @@ Run::Run(const Scene& scene, Gas initial) : Run(scene) {
         gas.clock.epoch_length()));
   }
   for (const auto& source : sources) source->begin(gas);
+  find_meeting_of_walls(scene);
   find_next_kick();
   for (Needle i{0}; i < gas.size(); ++i) {
     StopRequest::check_in_turn(i);
@@ -180,7 +197,7 @@ void Run::open_window(const std::vector<SumsOfSquares>& sums, double work) {
   energy_shares.settle(energy, tally);
   energy.open(energy_of(gas, sums), energy_of_motion(gas, sums), tally.energy);
   temperature_integral.note(gas.clock, now, translational_temperature(gas, sums));
-  windows.open(mean_free_time_of(gas, sums), usual_time_of_events(sums), gas.clock, now);
+  windows.open(mean_free_time_of(gas, sums, now), usual_time_of_events(sums), gas.clock, now);
   set_contact_time();
 }
 
@@ -256,8 +273,10 @@ StressSums Run::stress_sums() const {
 }
 
 StressTotals Run::stress() const {
+  const double volume =
+      gas.mean_of_edges(now, [](const Vector& edge) { return edge[0] * edge[1] * edge[2]; });
   const auto between = [&](const StressSums& from, const StressSums& to, double time) {
-    return StressTotals::between(from, to, time, gas.box.volume(), gas.box.periodic(),
+    return StressTotals::between(from, to, time, volume, gas.box.periodic(),
                                  gas.shear ? gas.shear->rate() : 0);
   };
   StressTotals out = between({}, stress_sums(), gas.clock.since_start(now));
@@ -324,7 +343,7 @@ void Run::require_followable(const std::vector<SumsOfSquares>& sums, bool moves)
   if (const auto reason = out_of_range(numbers_of(gas, sums, moves)); !reason.empty())
     throw InputError("set_velocities: " + reason);
   require_images(gas, now);
-  const double between = mean_free_time_of(gas, sums), least = 0x1p10 * gas.clock.resolution();
+  const double between = mean_free_time_of(gas, sums, now), least = 0x1p10 * gas.clock.resolution();
   if (between < least) {
     throw InputError(fmt::format(
         "set_velocities: a mean free time of {:.3g}: expected at least {:.3g}, as times of this "
@@ -424,6 +443,22 @@ ReplacedRecords Run::kick() {
   if (const auto reason = out_of_range(numbers()); !reason.empty())
     throw InvalidStateError(fmt::format("kick {}: {}", number, reason));
   return replaced;
+}
+
+bool Run::is_jammed() {
+  constexpr double events_of_a_body = 1e3, most_moved = 1e-6, most_flown = 0.1;
+  std::uint64_t events = tally.collisions;
+  for (const SourceTally& source : tally.by_source) events += source.events;
+  if (static_cast<double>(events - events_then_) <
+      events_of_a_body * static_cast<double>(gas.moving()))
+    return false;
+  const double elapsed = gas.clock.difference(now, looked_for_jam_);
+  const double speed = gas.moving_edges->speed(gas.clock.exact_difference(now, {}));
+  const double thermal = std::sqrt(2 * std::max(0.0, present_energy()) / gas.mass());
+  events_then_ = events;
+  looked_for_jam_ = now;
+  return speed > 0 && speed * elapsed <= most_moved * gas.longest &&
+         thermal * elapsed <= most_flown * gas.longest;
 }
 
 bool Run::nothing_can_happen() const {

@@ -66,6 +66,10 @@ class Run {
   bool nothing_can_happen() const;
   /// Why no two needles can ever collide, as the state shows; nothing if they may.
   std::optional<Collisionless> collisionless() const;
+  /// Whether walls with a velocity have pressed bodies together so that, since it was asked so many
+  /// events ago, each has flown a small part of its size only, and the walls have moved by next to
+  /// nothing: the last collision of all would never come. To be asked again and again.
+  bool is_jammed();
   bool is_quiet() const { return windows.are_quiet(gas.size()); }
   /// How a run ends that has no further event: since nothing can happen any more. If needles still
   /// move, their next events are beyond the range of the clock: throws InvalidStateError.
@@ -100,6 +104,7 @@ class Run {
 
   Gas gas;
   Time now;
+  Time walls_meet = Time::never();  ///< see Meeting
   Windows windows;
   EnergyAccount energy;
   EnergyShares energy_shares;
@@ -169,12 +174,15 @@ class Run {
   void expect_energy();
   double usual_time_of_events(const std::vector<SumsOfSquares>& sums) const;
   void find_next_kick();
+  void find_meeting_of_walls(const Scene& scene);
   void transfer(Archive& archive, const std::vector<Needle>& by_id);
   void require_consistent() const;
   GasNumbers numbers() const;
   void set_contact_time();
 
   std::optional<double> tc_, tc_relative_;
+  Time looked_for_jam_;
+  std::uint64_t events_then_ = 0;
   Time after_next_kick_ = Time::never();
   std::uint64_t sorted_at_ = 0;  ///< value of the counter `crossings` at the last sorting
 };

@@ -343,6 +343,7 @@ Run::Run(const Scene& scene, const Checkpoint& saved) : Run(scene) {
   std::uint64_t count;
   archive(physics, count);
   gas.box = box_of(scene);
+  gas.moving_edges = moving_edges_of(scene, gas.box.edges());
   set_gravity(gas, scene);
   if (scene.shear) {
     double slide;
@@ -370,6 +371,7 @@ Run::Run(const Scene& scene, const Checkpoint& saved) : Run(scene) {
   for (Needle i{0}; i < count; ++i) by_id[i] = i;
   transfer(archive, by_id);
   archive.require_end();
+  find_meeting_of_walls(scene);
   if (!sorted) return;
   const std::vector<Needle> order = order_in_space(gas, now);
   StopRequest::check();

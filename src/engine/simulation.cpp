@@ -105,7 +105,8 @@ std::string name_effects(const Run& run) {
 
 // In radians, as exact as a double at any age of the run.
 double phase_of(const std::optional<Scene::WallMotion>& motion, const Clock& clock, Time now) {
-  if (!motion) return std::numeric_limits<double>::quiet_NaN();
+  if (!motion || motion->velocity || motion->tangential)
+    return std::numeric_limits<double>::quiet_NaN();
   constexpr double turn = 2 * std::numbers::pi;
   const DoubleDouble turns =
       clock.turns(now, motion->frequency) + DoubleDouble(motion->phase / turn);
@@ -249,6 +250,7 @@ struct Simulation::Implementation {
         if (const auto called_off = limits.called_off(run)) return *called_off;
         continue;
       }
+      if (stop == Stop::time) return limits.at_time();
       if (stop) return *stop;
       if (!sizing->look(run.tally.collisions, run.gas, run.now)) continue;
       loop.reset();  // frees its memory before the next loop allocates
@@ -448,7 +450,12 @@ std::vector<std::vector<ObjectTotals>> Simulation::objects_by_source() const {
     if (run.tally.by_object.empty()) continue;
     for (std::size_t object = 0; object < out.back().size(); ++object) {
       const ObjectTally& sums = run.tally.by_object[run.first_object[n] + object];
-      out.back()[object] = {sums.events, sums.impulse.value(), sums.normal_impulse.value()};
+      out.back()[object] = {
+          sums.events,
+          sums.impulse.value(),
+          sums.normal_impulse.value(),
+          {sums.momentum[0].value(), sums.momentum[1].value(), sums.momentum[2].value()},
+          sums.work.value()};
     }
   }
   return out;
@@ -475,14 +482,22 @@ std::vector<WallTotals> Simulation::wall_totals() const {
   const Access self = access();
   const Run& run = self->run;
   const Scene& scene = implementation_->scene;
-  const Box& box = run.gas.box;
+  const Vector edges = run.gas.edges_at(run.now), low = run.gas.low_at(run.now);
   std::vector<WallTotals> out;
+  std::vector<double> mean_areas;
   for (const Scene::WallSide& side : scene.wall_sides()) {
     WallTotals& wall = out.emplace_back();
     wall.axis = static_cast<int>(side.axis);
     wall.high = side.is_high;
-    wall.area = box.edge((side.axis + 1) % 3) * box.edge((side.axis + 2) % 3);
-    wall.phase = phase_of(scene.walls[side.entry].motion, run.gas.clock, run.now);
+    const auto area = [&](const Vector& of) {
+      return of[(side.axis + 1) % 3] * of[(side.axis + 2) % 3];
+    };
+    const auto& motion = scene.walls[side.entry].motion;
+    wall.area = area(edges);
+    mean_areas.push_back(run.gas.mean_of_edges(run.now, area));
+    wall.phase = phase_of(motion, run.gas.clock, run.now);
+    wall.place = low[side.axis] + (side.is_high ? edges[side.axis] : 0);
+    if (motion && motion->amplitude > 0) wall.place += motion->amplitude * std::sin(wall.phase);
   }
   const auto by_source = objects_by_source();
   for (std::size_t n = 0; n < by_source.size(); ++n) {
@@ -491,12 +506,17 @@ std::vector<WallTotals> Simulation::wall_totals() const {
       out[wall].hits = by_source[n][wall].events;
       out[wall].impulse = by_source[n][wall].impulse;
       out[wall].normal_impulse = by_source[n][wall].normal_impulse;
+      out[wall].impulse_x = by_source[n][wall].momentum[0];
+      out[wall].impulse_y = by_source[n][wall].momentum[1];
+      out[wall].impulse_z = by_source[n][wall].momentum[2];
+      out[wall].work =
+          by_source[n][wall].work / static_cast<double>(std::max<std::size_t>(run.gas.moving(), 1));
     }
   }
   const EnergyBudget budget = run.energy_budget();
   for (std::size_t n = 0; n < out.size(); ++n) {
     out[n].energy = n < budget.walls.size() ? budget.walls[n] : 0;
-    out[n].pressure = out[n].normal_impulse / (out[n].area * time());
+    out[n].pressure = out[n].normal_impulse / (mean_areas[n] * time());
   }
   return out;
 }

@@ -2,11 +2,14 @@
 // several threads can be added in any order.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "kernels/vec3.h"
 #include "needlework/counters.h"
 #include "src/effects/sliding/sliding_tally.h"
 #include "src/engine/quanta.h"
@@ -31,13 +34,16 @@ struct SourceTally {
 /// What has happened at one object of a source of events, such as a wall.
 struct ObjectTally {
   std::uint64_t events = 0;
-  Quanta energy;                    ///< the same
-  ExactTotal impulse;               ///< sum of |J| [m L / time]
-  SignedExactTotal normal_impulse;  ///< of components along its normal
+  Quanta energy;                             ///< the same
+  ExactTotal impulse;                        ///< sum of |J| [m L / time]
+  SignedExactTotal normal_impulse;           ///< of components along its normal
+  SignedExactTotal work;                     ///< of its motion [energy]
+  std::array<SignedExactTotal, 3> momentum;  ///< sum of J
 
   template <class Archive>
   friend void transfer(Archive& archive, ObjectTally& tally) {
-    archive(tally.events, tally.energy, tally.impulse, tally.normal_impulse);
+    archive(tally.events, tally.energy, tally.impulse, tally.normal_impulse, tally.work,
+            tally.momentum[0], tally.momentum[1], tally.momentum[2]);
   }
 };
 
@@ -79,7 +85,8 @@ struct Tally {
   /// An event at an object.
   struct AtObject {
     Quanta quanta;
-    double impulse, normal_impulse;
+    double normal_impulse, work;
+    Vec3d impulse;
   };
   /// Counts one at object `index` out of so many.
   void count_object(std::size_t index, const AtObject& event, std::size_t objects) {
@@ -87,8 +94,12 @@ struct Tally {
     ObjectTally& object = by_object[index];
     ++object.events;
     object.energy += event.quanta;
-    object.impulse.add(event.impulse);
+    object.impulse.add(std::sqrt(dot(event.impulse, event.impulse)));
     object.normal_impulse.add(event.normal_impulse);
+    if (event.work != 0) object.work.add(event.work);
+    object.momentum[0].add(event.impulse.x);
+    object.momentum[1].add(event.impulse.y);
+    object.momentum[2].add(event.impulse.z);
   }
 
   /// Moves the sums of `other` into this object. Not its last instant, because later events have
@@ -120,6 +131,8 @@ struct Tally {
     to.energy += from.energy;
     to.impulse.take(from.impulse);
     to.normal_impulse.take(from.normal_impulse);
+    to.work.take(from.work);
+    for (std::size_t n = 0; n < 3; ++n) to.momentum[n].take(from.momentum[n]);
   }
   static void add(ExactTotal& to, ExactTotal& from) { to.take(from); }
   static void add(StressTally& to, StressTally& from) { to.take(from); }

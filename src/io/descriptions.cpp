@@ -245,6 +245,17 @@ std::vector<Description> wall_descriptions() {
            "Rectangular box, which is periodic along the axes without walls", none, none}};
 }
 
+std::vector<Description> moving_wall_descriptions() {
+  return {{"/particles/needles/box",
+           "Box of which walls move edges, periodic along the axes without walls", none, none},
+          {"/particles/needles/box/edges",
+           "Edge vectors of the box as the rows of a diagonal matrix, from one wall to the other",
+           length, "[frames][3][3]"},
+          {"/particles/needles/box/low",
+           "Place of the low edges, of which a wall may have moved one; positions count from 0",
+           length, "[frames][3]"}};
+}
+
 std::vector<Description> shear_descriptions() {
   return {{"/particles/needles/box",
            "Box whose rows of images slide along x; shear_rate is that of the flow, rate * y", none,

@@ -111,6 +111,10 @@ StepAndTime make_needles(hid_t group, const Scene& scene, std::vector<std::uint8
   // MDAnalysis reads the edges only if they are a matrix.
   const Handle box = make_box(group, scene, place);
   make_element(box.get(), "edges", shared, type_of<double>(), {3, 3}, 64, place);
+  // H5MD has boxes begin at 0. Where a wall with a velocity has taken the low edge away from there,
+  // readers need to know.
+  if (scene.has_moving_walls())
+    make_element(box.get(), "low", shared, type_of<double>(), {3}, 64, place);
 
   std::vector<std::uint32_t> ids(count);
   std::iota(ids.begin(), ids.end(), 0u);
@@ -290,6 +294,7 @@ void make_layout(hid_t file, const Scene& scene, const RunInfo& run, const std::
   if (!run.own_bodies.empty()) write_descriptions(file, own_body_descriptions(), place);
   if (!composition.all_meet()) write_descriptions(file, passing_descriptions(), place);
   if (!scene.walls.empty()) write_descriptions(file, wall_descriptions(), place);
+  if (scene.has_moving_walls()) write_descriptions(file, moving_wall_descriptions(), place);
   if (scene.shear) write_descriptions(file, shear_descriptions(), place);
   if (run.has_kinds) write_descriptions(file, event_kind_descriptions(), place);
   write_descriptions(file, run_file_descriptions(), place);

@@ -31,9 +31,9 @@ static void transfer(Archive& archive, OwnBodies& bodies) {
 }
 
 static void transfer(Archive& archive, State& state) {
-  auto& [box, periodic, slide, shear_rate, position, velocity, peculiar_velocity, peculiar_x,
+  auto& [box, low, periodic, slide, shear_rate, position, velocity, peculiar_velocity, peculiar_x,
          orientation, angular_velocity, image, id, species, bodies, own_bodies] = state;
-  archive(box, periodic, slide, shear_rate, position, velocity, peculiar_velocity, peculiar_x,
+  archive(box, low, periodic, slide, shear_rate, position, velocity, peculiar_velocity, peculiar_x,
           orientation, angular_velocity, image, id, species, bodies, own_bodies);
 }
 
@@ -86,6 +86,7 @@ class FrameReader {
 
   std::array<bool, 3> read_periodic() const;
   Vector read_box(double& xy);
+  Vector read_low();
   bool has_row_a_frame(const Element& edges) const;
   Vector diagonal(const Slice& edges, double& xy) const;
   double read_shear_rate() const;
@@ -108,7 +109,7 @@ class FrameReader {
 FrameReader::FrameReader(const std::string& path) : source_(path), group_(find_particles(source_)) {
   for (const char* name : {"position", "velocity", "orientation", "angular_velocity"})
     element(name);
-  for (const char* name : {"image", "id", "species", "box/edges"}) {
+  for (const char* name : {"image", "id", "species", "box/edges", "box/low"}) {
     if (has(name)) element(name);
   }
   if (!has("box/edges")) reject(source_.place(group_ + "/box/edges"), ": missing: expected edges");
@@ -147,6 +148,7 @@ State FrameReader::read(std::size_t frame) {
   state.box = read_box(xy);
   const Tilt tilt = reduced_tilt(xy, state.box[0]);
   state.slide = tilt.rest;
+  if (has("box/low")) state.low = read_low();
   state.periodic = read_periodic();
   state.shear_rate = read_shear_rate();
   state.position = read_vectors("position");
@@ -236,6 +238,22 @@ Vector FrameReader::read_box(double& xy) {
     }
   }
   return box;
+}
+
+// Where the low edges are, of a file of this program.
+Vector FrameReader::read_low() {
+  const Element& low = element("box/low");
+  const Shape& shape = low.shape();
+  if (shape.size() != 2 || shape[1] != 3)
+    reject(place(low), fmt::format(": shape {}: expected [frames][3]", hdf5::to_string(shape)));
+  const auto values = low.read<double>(slice(low, 1).frame);
+  Vector out{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    out[axis] = values[axis];
+    if (!std::isfinite(out[axis]))
+      reject(place(low), fmt::format(", axis {} = {}: expected a finite number", axis, out[axis]));
+  }
+  return out;
 }
 
 // Whether edges of shape [n][3] have one row for each frame. The shape [3][3] is read as a matrix

@@ -87,6 +87,7 @@ class Frames {
   bool ids_written_;
   Column edges_, position_, image_, velocity_, orientation_, angular_velocity_;
   std::optional<Column> peculiar_velocity_;  ///< in a uniform flow
+  std::optional<Column> low_;                ///< where walls move edges
 };
 
 /// A change of all velocities by a caller.

@@ -75,6 +75,17 @@ void add_species(Json& json, const Simulation& simulation) {
   json["collisions_by_pair"] = std::move(by_pair);
 }
 
+Json motion_of(const Scene::WallMotion& motion) {
+  if (motion.tangential) return {{"tangential", *motion.tangential}};
+  if (motion.velocity) {
+    Json out{{"velocity", *motion.velocity}};
+    if (motion.stop_at) out["stop_at"] = *motion.stop_at;
+    return out;
+  }
+  return {
+      {"amplitude", motion.amplitude}, {"frequency", motion.frequency}, {"phase", motion.phase}};
+}
+
 void add_walls(Json& json, const Simulation& simulation) {
   Json walls = Json::array();
   for (const WallTotals& wall : simulation.wall_totals()) {

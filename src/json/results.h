@@ -36,6 +36,9 @@ void add_sizes(nlohmann::ordered_json& json, const Species& species);
 /// the start, both in the order of the scene.
 void add_species(nlohmann::ordered_json& json, const Simulation& simulation);
 
+/// Of a wall: {amplitude, frequency, phase}, {velocity, stop_at} or {tangential}.
+nlohmann::ordered_json motion_of(const Scene::WallMotion& motion);
+
 /// Adds "walls", [{axis, side, ...}] since the start, in the order of Scene::wall_sides().
 void add_walls(nlohmann::ordered_json& json, const Simulation& simulation);
 

@@ -32,6 +32,7 @@ void SnapshotsOfParts::begin(const Snapshot& all, std::span<const SpeciesTotals>
   for (std::size_t n = 0; n < parts_.size(); ++n) {
     Part& part = parts_[n];
     part.state.box = state.box;
+    part.state.low = state.low;
     part.state.periodic = state.periodic;
     part.state.slide = state.slide;
     part.state.shear_rate = state.shear_rate;

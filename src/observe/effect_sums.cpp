@@ -16,12 +16,15 @@ namespace needlework::observe {
 namespace {
 
 class WallSums : public Observable {
-  // Areas do not change, energies are in the budget, and pressures are those between two samples.
+  // Areas and energies are in the budget, and pressures are those between two samples.
   struct Taken {
-    bool has_motion = false;
+    bool shakes = false, travels = false, drags = false;
 
     bool operator()(std::string_view name) const {
-      if (name == "phase") return has_motion;
+      if (name == "phase") return shakes;
+      if (name == "place") return travels;
+      if (name == "work") return shakes || travels || drags;
+      if (name.starts_with("impulse_")) return drags;
       return name != "normal_impulse" && name != "area" && name != "energy" && name != "pressure";
     }
   };
@@ -31,7 +34,11 @@ class WallSums : public Observable {
     for (const Scene::WallSide& wall : scene.wall_sides()) {
       axes_.push_back(static_cast<double>(wall.axis));
       high_.push_back(wall.is_high);
-      taken_.has_motion |= scene.walls[wall.entry].motion.has_value();
+      const Scene::Wall& given = scene.walls[wall.entry];
+      taken_.drags |= given.temperature.has_value();
+      if (!given.motion) continue;
+      taken_.travels |= given.motion->velocity.has_value();
+      taken_.shakes |= !given.motion->velocity && !given.motion->tangential;
     }
     impulse_before_.resize(axes_.size());
   }

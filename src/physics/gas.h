@@ -9,6 +9,7 @@
 
 #include "kernels/contact_function.h"
 #include "src/box/box.h"
+#include "src/box/moving_edge.h"
 #include "src/composition/total_mass.h"
 #include "src/memory/large_array.h"
 #include "src/physics/body.h"
@@ -31,11 +32,12 @@ struct Gas {
   Clock clock;
   Box box;                     ///< its edges, and which axes are periodic: those without walls
   std::optional<Shear> shear;  ///< if rows of boxes slide
-  Vec3d gravity{};             ///< acceleration of all needles [L / time^2]
-  bool falls = false;          ///< gravity is not 0
-  Vec3d pull{};                ///< gravity along periodic axes, where it has no potential
-  Columns columns;             ///< what effects keep for each needle
-  Composition composition;     ///< indexed by Record::species
+  std::optional<MovingEdges> moving_edges;  ///< if walls with a velocity move edges of the box
+  Vec3d gravity{};                          ///< acceleration of all needles [L / time^2]
+  bool falls = false;                       ///< gravity is not 0
+  Vec3d pull{};                        ///< gravity along periodic axes, where it has no potential
+  Columns columns;                     ///< what effects keep for each needle
+  Composition composition;             ///< indexed by Record::species
   LargeArray<BodyNumbers> own_bodies;  ///< of each needle; empty where those of a species are alike
   double longest = 1;              ///< largest extent of a body, with departures from flights [L]
   std::unique_ptr<Slides> slides;  ///< null where needles do not slide on each other
@@ -56,6 +58,25 @@ struct Gas {
   Box box_at(Time now) const {
     return shear ? box.with_rows(shear->at<Real>(now.epoch, now.offset)) : box;
   }
+  /// The distances of the edges at a time: those of the box, but where walls move them. Images,
+  /// cells and what is wrapped know nothing of that, as there are none along such an axis.
+  Vector edges_at(Time now) const {
+    return moving_edges ? moving_edges->distances(clock.exact_difference(now, {})) : box.edges();
+  }
+  /// Where the low edges are. [L]
+  Vector low_at(Time now) const {
+    return moving_edges ? moving_edges->low(clock.exact_difference(now, {})) : Vector{};
+  }
+  double volume_at(Time now) const {
+    const Vector edges = edges_at(now);
+    return edges[0] * edges[1] * edges[2];
+  }
+  /// The mean of a product of edges from the start to a time.
+  template <class Product>
+  double mean_of_edges(Time now, const Product& product) const {
+    return moving_edges ? moving_edges->mean(clock.since_start(now), product)
+                        : product(box.edges());
+  }
   /// How fast the image of a needle flies past it. [L / time]
   Vec3d image_velocity(const Shift& shift) const {
     return {shear ? shear->velocity() * shift[1] : 0, 0, 0};
@@ -68,7 +89,7 @@ struct Gas {
     const Vec3d c = records[i].flight.v - flow_at(records[i].flight.r);
     return elapsed * (c.x - 0.5 * elapsed * (shear->rate() * c.y));
   }
-  /// Number density [L^-3].
+  /// Number density at the start [L^-3].
   double density() const { return static_cast<double>(size()) / box.volume(); }
 
   void set_composition(Composition its_composition);

@@ -79,7 +79,7 @@ class Painter {
         settings_(settings),
         theme_(theme_of(settings.dark)),
         unit_(std::max(least_unit, std::min(settings.width, settings.height) / 832.0)),
-        walls_(surfaces_of(settings.walls, state.box, settings.time)),
+        walls_(surfaces_of(settings.walls, state, settings.time)),
         region_(region_of(state, walls_)),
         camera_(region_, margin_of(state, settings), settings.camera, frame()) {}
 

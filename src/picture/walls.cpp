@@ -12,9 +12,12 @@
 namespace needlework::picture {
 namespace {
 
+bool shakes(const Scene::Wall& wall) { return wall.motion && wall.motion->amplitude > 0; }
+
 WallKind kind_of(const Scene::Wall& wall) {
   if (wall.temperature) return WallKind::thermal;
-  return wall.motion && wall.motion->amplitude > 0 ? WallKind::moving : WallKind::resting;
+  const bool moves = wall.motion && (shakes(wall) || wall.motion->velocity.value_or(0) != 0);
+  return moves ? WallKind::moving : WallKind::resting;
 }
 
 }  // namespace
@@ -24,7 +27,7 @@ const char* name_of(WallKind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-std::vector<WallSurface> surfaces_of(std::span<const Scene::Wall> walls, const Vector& box,
+std::vector<WallSurface> surfaces_of(std::span<const Scene::Wall> walls, const State& state,
                                      std::optional<double> time) {
   std::vector<WallSurface> surfaces;
   for (const Scene::Wall& wall : walls) {
@@ -32,8 +35,8 @@ std::vector<WallSurface> surfaces_of(std::span<const Scene::Wall> walls, const V
     surface.axis = static_cast<std::size_t>(wall.axis.at(0) - 'x');
     surface.is_high = wall.side == "high";
     surface.kind = kind_of(wall);
-    surface.place = surface.is_high ? box[surface.axis] : 0;
-    if (surface.kind != WallKind::moving || !time) continue;
+    surface.place = state.low[surface.axis] + (surface.is_high ? state.box[surface.axis] : 0);
+    if (!shakes(wall) || !time) continue;
     const double turns = std::fmod(wall.motion->frequency * *time, 1.0);
     surface.place +=
         wall.motion->amplitude * std::sin(2 * std::numbers::pi * turns + wall.motion->phase);
@@ -46,15 +49,18 @@ std::string description_of(const Scene::Wall& wall) {
   std::string text = fmt::format("{} {} ({}", wall.side, wall.axis, name_of(kind));
   if (kind == WallKind::thermal)
     return text + fmt::format(", temperature {:g})", *wall.temperature);
-  if (kind == WallKind::moving) {
+  if (shakes(wall)) {
     text += fmt::format(", amplitude {:g}, frequency {:g}", wall.motion->amplitude,
                         wall.motion->frequency);
+  } else if (kind == WallKind::moving) {
+    text += fmt::format(", velocity {:g}", *wall.motion->velocity);
   }
   return text + fmt::format(", restitution {:g})", wall.epsilon);
 }
 
 Region region_of(const State& state, std::span<const WallSurface> walls) {
-  Region region{{}, state.box, TiltedCell(state).xy()};
+  Region region{state.low, state.box, TiltedCell(state).xy()};
+  for (std::size_t axis = 0; axis < 3; ++axis) region.high[axis] += state.low[axis];
   const auto include = [&](std::size_t axis, double place) {
     region.low[axis] = std::min(region.low[axis], place);
     region.high[axis] = std::max(region.high[axis], place);

@@ -26,9 +26,9 @@ struct WallSurface {
   double place = 0;  ///< of its surface, along its axis [L]
 };
 
-/// Where the walls are at this time since the start of the scene; without a time, in the middle of
-/// their motion. Each wall is of one side, not of both.
-std::vector<WallSurface> surfaces_of(std::span<const Scene::Wall> walls, const Vector& box,
+/// Where the walls are in this state, at this time since the start of the scene; without a time,
+/// in the middle of a motion that shakes them. Each wall is of one side, not of both.
+std::vector<WallSurface> surfaces_of(std::span<const Scene::Wall> walls, const State& state,
                                      std::optional<double> time);
 
 /// Axis and side, what is special about the wall, and its restitution, in words.

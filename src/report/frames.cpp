@@ -154,7 +154,7 @@ Json frames_of(const std::string& path, const BodySizes& sizes, std::span<const 
   const std::size_t flow_axis = flow_axis_of(file.read(frames.back()));
   Json out = {{"box", first.box},
               {"periodic", first.periodic},
-              {"walls", drawn_walls(picture::surfaces_of(walls, first.box, {}))},
+              {"walls", drawn_walls(picture::surfaces_of(walls, first, {}))},
               {"flow_axis", flow_axis},
               {"needles_in_file", needles},
               {"needles_shown", chosen.size()},
@@ -173,7 +173,7 @@ Json frames_of(const std::string& path, const BodySizes& sizes, std::span<const 
     const auto time = file.time(frame);
     if (time) one["time"] = *time;
     const State state = file.read(frame);
-    const auto surfaces = picture::surfaces_of(walls, state.box, time);
+    const auto surfaces = picture::surfaces_of(walls, state, time);
     picture::Region drawn = region_of_layer(state, surfaces);
     if (later) include(drawn, *later, state);
     later = drawn;

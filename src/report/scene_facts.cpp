@@ -86,9 +86,7 @@ Json walls_of(const Scene& scene) {
   for (const Scene::Wall& wall : io::single_walls(scene.walls)) {
     Json motion = nullptr;
     if (wall.motion) {
-      motion = {{"amplitude", wall.motion->amplitude},
-                {"frequency", wall.motion->frequency},
-                {"phase", wall.motion->phase}};
+      motion = json::motion_of(*wall.motion);
     }
     out.push_back({{"axis", wall.axis},
                    {"side", wall.side},

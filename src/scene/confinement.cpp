@@ -48,6 +48,34 @@ std::array<Gap, 3> gaps_of(const Scene& scene) {
   return out;
 }
 
+std::optional<MovingEdges> moving_edges_of(const Scene& scene, const std::array<double, 3>& box) {
+  std::optional<MovingEdges> out;
+  for (const Scene::WallSide& side : scene.wall_sides()) {
+    const auto& motion = scene.walls[side.entry].motion;
+    if (!motion || motion->velocity.value_or(0) == 0) continue;
+    if (!out) out.emplace(box);
+    const double start = side.is_high ? box[side.axis] : 0;
+    out->set(side.axis, side.is_high, MovingEdge(start, *motion->velocity, motion->stop_at));
+  }
+  return out;
+}
+
+std::optional<Meeting> meeting_of(const Scene& scene, const std::array<double, 3>& box) {
+  const std::optional<MovingEdges> edges = moving_edges_of(scene, box);
+  if (!edges) return {};
+  const std::array<Gap, 3> gaps = gaps_of(scene);
+  const double extent = scene.composition().longest();
+  std::optional<Meeting> out;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!gaps[axis].has_low || !gaps[axis].has_high) continue;
+    // A wall that shakes comes nearer than where it is on average.
+    const double distance = extent + gaps[axis].approach;
+    const double time = edges->time_of_distance(axis, distance);
+    if (std::isfinite(time) && (!out || time < out->time)) out = Meeting{time, axis, distance};
+  }
+  return out;
+}
+
 Room::Room(const Scene& scene) : gaps_(gaps_of(scene)) {
   const Composition composition = scene.composition();
   if (scene.collisions.sliding) counts_as_ = length_with_sliding;

@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "needlework/scene.h"
+#include "src/box/moving_edge.h"
 
 namespace needlework {
 
@@ -24,6 +26,17 @@ struct Gap {
   double beyond(double centre, double reach, double edge) const;
 };
 std::array<Gap, 3> gaps_of(const Scene& scene);
+
+/// The edges of a box as walls with a velocity move them; none where no wall has one.
+std::optional<MovingEdges> moving_edges_of(const Scene& scene, const std::array<double, 3>& box);
+
+/// When walls first come so near to each other that the longest body of the scene has no room.
+struct Meeting {
+  double time = 0;
+  std::size_t axis = 0;
+  double distance = 0;  ///< how near, the extent of that body [L]
+};
+std::optional<Meeting> meeting_of(const Scene& scene, const std::array<double, 3>& box);
 
 /// How long the edges of a box may be for the needles and the walls of a scene.
 class Room {

@@ -13,13 +13,26 @@ std::optional<double> number(const Value& value, const ValueRange& range) {
   return x && range.holds(*x) ? x : std::nullopt;
 }
 
-std::optional<std::array<double, 3>> three_numbers(const Value& value, const ValueRange& range) {
+namespace {
+
+template <std::size_t size>
+std::optional<std::array<double, size>> numbers(const Value& value, const ValueRange& range) {
   const auto* components = value.as<Value::Array>();
-  if (!components || components->size() != 3) return std::nullopt;
-  std::array<double, 3> out{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (!store(out[axis], number((*components)[axis], range))) return std::nullopt;
+  if (!components || components->size() != size) return std::nullopt;
+  std::array<double, size> out{};
+  for (std::size_t n = 0; n < size; ++n)
+    if (!store(out[n], number((*components)[n], range))) return std::nullopt;
   return out;
+}
+
+}  // namespace
+
+std::optional<std::array<double, 3>> three_numbers(const Value& value, const ValueRange& range) {
+  return numbers<3>(value, range);
+}
+
+std::optional<std::array<double, 2>> two_numbers(const Value& value, const ValueRange& range) {
+  return numbers<2>(value, range);
 }
 
 std::optional<std::uint64_t> whole_number(const Value& value, const ValueRange& range) {

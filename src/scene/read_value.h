@@ -25,6 +25,7 @@ bool store(T& target, std::optional<U> value) {
 
 std::optional<double> number(const Value& value, const ValueRange& range);
 std::optional<std::array<double, 3>> three_numbers(const Value& value, const ValueRange& range);
+std::optional<std::array<double, 2>> two_numbers(const Value& value, const ValueRange& range);
 std::optional<std::uint64_t> whole_number(const Value& value, const ValueRange& range);
 std::optional<bool> truth(const Value& value);
 std::optional<std::string> text(const Value& value);

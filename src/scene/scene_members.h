@@ -44,10 +44,13 @@ void visit_pair(Pair& pair, Visit&& visit) {
 /// The same for each member of Scene::WallMotion.
 template <class Motion, class Visit>
 void visit_motion(Motion& motion, Visit&& visit) {
-  auto& [amplitude, frequency, phase] = motion;
+  auto& [amplitude, frequency, phase, velocity, stop_at, tangential] = motion;
   visit("walls", "motion.amplitude", amplitude);
   visit("walls", "motion.frequency", frequency);
   visit("walls", "motion.phase", phase);
+  visit("walls", "motion.velocity", velocity);
+  visit("walls", "motion.stop_at", stop_at);
+  visit("walls", "motion.tangential", tangential);
 }
 
 /// The same for each member of Scene::Wall.

@@ -2,6 +2,7 @@
 // together. An effect has all of its own in one file of src/scene/sections.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -80,6 +81,8 @@ struct SceneKey {
   /// What is wrong with a value that was refused, if more can be said than the requirement: the
   /// word in it that is not known.
   std::optional<UnknownWord> (*unknown_word)(const Value& value) = nullptr;
+  /// A key that is required is not where one of these is: keys of another form of the same table.
+  std::array<std::string_view, 2> unless = {};
   std::string_view section = {};  ///< empty for a key outside all sections; set by the schema
 
   bool read(Scene& scene, const Value& value) const { return store(scene, value, range); }

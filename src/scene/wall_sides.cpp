@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <vector>
 
 #include "needlework/scene.h"
@@ -20,6 +21,12 @@ std::array<bool, 3> Scene::periodic() const {
   std::array<bool, 3> out{true, true, true};
   for (const WallSide& side : wall_sides()) out[side.axis] = false;
   return out;
+}
+
+bool Scene::has_moving_walls() const {
+  return std::ranges::any_of(walls, [](const Wall& wall) {
+    return wall.motion && wall.motion->velocity.value_or(0) != 0;
+  });
 }
 
 }  // namespace needlework

@@ -221,12 +221,15 @@ std::string_view conflict(const Entry& entry, const GivenKeys& given, Provided p
   return {};
 }
 
-// Whether an entry gives a key of the table that this key is of.
+// Whether an entry gives a key of the table that this key is of, and none of another form of it.
 bool has_table(const SceneKey& key, std::size_t entry, const std::set<std::string>& given) {
   const std::string_view table = key.key.substr(0, key.key.find('.') + 1);
+  const auto is_given = [&](std::string_view other) {
+    return given.contains(key_of_entry(fmt::format("{}.{}", key.section, other), entry));
+  };
+  if (std::ranges::any_of(key.unless, is_given)) return false;
   return std::ranges::any_of(find_scene_section(key.section)->keys, [&](const SceneKey& other) {
-    return other.key.starts_with(table) &&
-           given.contains(key_of_entry(fmt::format("{}.{}", key.section, other.key), entry));
+    return other.key.starts_with(table) && is_given(other.key);
   });
 }
 

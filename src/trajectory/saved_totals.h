@@ -15,7 +15,8 @@ inline void transfer(Archive& archive, Totals& totals) {
 
 inline void transfer(Archive& archive, WallTotals& wall) {
   archive(wall.axis, wall.high, wall.hits, wall.impulse, wall.normal_impulse, wall.area, wall.phase,
-          wall.energy, wall.pressure);
+          wall.energy, wall.pressure, wall.place, wall.work, wall.impulse_x, wall.impulse_y,
+          wall.impulse_z);
 }
 
 /// Whether these can be the totals of a gas of which this share turns, as far as can be seen from

@@ -20,6 +20,10 @@ namespace {
 // Serial numbers of records begin above the bits of twice six walls.
 constexpr unsigned bits_of_tips = 12;
 
+void set_component(Vec3d& vector, int axis, double value) {
+  (axis == 0 ? vector.x : axis == 1 ? vector.y : vector.z) = value;
+}
+
 double sign_of(int tip) { return tip == 0 ? 1 : -1; }
 
 // Of a tip along the normal of a wall: velocity per impulse. `share` is the director's component.
@@ -58,15 +62,23 @@ std::vector<double> Walls::parameters() const {
     out.insert(out.end(),
                {static_cast<double>(plane.axis), static_cast<double>(plane.normal), plane.amplitude,
                 plane.frequency, wall.turns, wall.epsilon, wall.temperature});
+    if (wall.edge.moves()) {
+      const double halt = to_double(wall.edge.halt_time());
+      out.insert(out.end(), {wall.edge.velocity(), wall.edge.stop(), halt});
+    }
+    if (!(wall.sliding == Vec3d{}))
+      out.insert(out.end(), {wall.sliding.x, wall.sliding.y, wall.sliding.z});
   }
   return out;
 }
 
-// That of a turn of a wall, which may set needles in motion that are at rest.
+// That of a turn of a wall, or of its way of one length, which may set needles in motion that are
+// at rest.
 double Walls::usual_time() const {
   double fastest = 0;
   for (const Wall& wall : walls_) {
     if (wall.plane.amplitude > 0) fastest = std::max(fastest, wall.plane.frequency);
+    fastest = std::max(fastest, std::abs(wall.edge.velocity()));
   }
   return 1 / fastest;
 }
@@ -75,8 +87,11 @@ double Walls::usual_time() const {
 double Walls::usual_temperature() const {
   double out = 0;
   for (const Wall& wall : walls_) {
-    const double speed = 2 * std::numbers::pi * wall.plane.frequency * wall.plane.amplitude;
-    out = std::max({out, wall.temperature, heaviest_ * (4 * speed * speed)});
+    const double speed =
+        std::max(2 * std::numbers::pi * wall.plane.frequency * wall.plane.amplitude,
+                 std::abs(wall.edge.velocity()));
+    out = std::max({out, wall.temperature, heaviest_ * (4 * speed * speed),
+                    heaviest_ * dot(wall.sliding, wall.sliding)});
   }
   return out;
 }
@@ -85,6 +100,19 @@ double Walls::usual_temperature() const {
 DoubleDouble Walls::turns_at(const Clock& clock, const Wall& wall, Time time) const {
   if (!(wall.plane.amplitude > 0)) return {};
   return clock.turns(time, wall.plane.frequency) + DoubleDouble(wall.turns);
+}
+
+// The wall from this time on.
+kernels::WallPlane Walls::plane_at(const Clock& clock, const Wall& wall, Time time) const {
+  kernels::WallPlane out = wall.plane;
+  if (!wall.edge.moves()) return out;
+  const DoubleDouble since_start = clock.exact_difference(time, {});
+  out.place = wall.edge.place(since_start);
+  if (wall.edge.is_at_rest(since_start)) return out;
+  out.velocity = wall.edge.velocity();
+  out.halt = to_double(wall.edge.halt_time() - since_start);
+  out.halt_place = wall.edge.stop();
+  return out;
 }
 
 unsigned Walls::touching(const Record& record, Needle i, std::size_t wall) const {
@@ -107,8 +135,7 @@ SourceEvent Walls::next(const Gas& gas, Needle i, Time now, Time until) const {
     const Wall& wall = walls_[n];
     const Body body = gas.body(i);
     // The caps of rods touch where the ends of their axes are half a diameter away.
-    kernels::WallPlane plane = wall.plane;
-    plane.place += plane.normal * body.radius;
+    const kernels::WallPlane plane = plane_at(gas.clock, wall, record.time).for_radius(body.radius);
     const kernels::WallApproach approach{.flight = &record.flight,
                                          .gravity = component(gas.gravity, wall.plane.axis),
                                          .half = body.half_length,
@@ -145,10 +172,12 @@ void Walls::leave_with_temperature(const NeedleAt& at, const Wall& wall, const V
   const Vec3d v = vector_of(random.normal()) * std::sqrt(temperature / body.mass);
   const double spread = body.turns() ? std::sqrt(temperature / inertia) : 0;
   const Vec3d w = project_out(vector_of(random.normal()) * spread, at.director);
+  // Along the normal, where the wall's own motion has no part.
   const double drawn = dot(v + cross(w, at.director) * arm, normal);
   const double leaving = std::sqrt(2 * temperature * mobility * random.exponential());
   const double impulse = (leaving - drawn) / mobility;
   outcome.velocity = v + normal * (impulse / body.mass);
+  if (!(wall.sliding == Vec3d{})) outcome.velocity = outcome.velocity + wall.sliding;
   outcome.angular_velocity = w + turn_by(body, at.director, normal, arm, impulse);
   // The impulse that the wall has given, along its normal and besides.
   outcome.impulse = (outcome.velocity - at.velocity) * body.mass;
@@ -168,7 +197,8 @@ SourceOutcome Walls::happen(const Gas& gas, const NeedleAt& at, std::int8_t deta
   const Vec3d normal{wall.plane.axis == 0 ? sign : 0, wall.plane.axis == 1 ? sign : 0,
                      wall.plane.axis == 2 ? sign : 0};
   const double surface =
-      kernels::surface_at(wall.plane, turns_at(gas.clock, wall, at.now)).velocity;
+      kernels::surface_at(plane_at(gas.clock, wall, at.now), turns_at(gas.clock, wall, at.now))
+          .velocity;
   const double tip = dot(at.velocity + cross(at.angular_velocity, at.director) * arm, normal);
   SourceOutcome out;
   out.changes_motion = true;
@@ -185,6 +215,7 @@ SourceOutcome Walls::happen(const Gas& gas, const NeedleAt& at, std::int8_t deta
   if (wall.temperature > 0) {
     leave_with_temperature(at, wall, normal, arm, out);
     out.normal_impulse = dot(out.impulse, normal);
+    out.work = dot(out.impulse, wall.sliding);
   } else {
     const double mobility = mobility_of(body, arm, component(at.director, wall.plane.axis));
     const double epsilon = out.contact_time_rule ? 1 : wall.epsilon;
@@ -193,6 +224,10 @@ SourceOutcome Walls::happen(const Gas& gas, const NeedleAt& at, std::int8_t deta
     out.angular_velocity = at.angular_velocity + turn_by(body, at.director, normal, arm, impulse);
     out.impulse = normal * impulse;
     out.normal_impulse = impulse;
+    out.work = impulse * (sign * surface);
+    // A sphere that does not rebound from a wall moves with it from then on, to the last digit.
+    if (wall.edge.moves() && epsilon == 0 && !body.turns())
+      set_component(out.velocity, wall.plane.axis, surface);
     out.energy_change = impulse * (tip + 0.5 * impulse * mobility);
   }
   // Tips that have hit walls at this instant are still there. A sphere has both in one place.

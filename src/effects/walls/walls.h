@@ -1,4 +1,7 @@
 // Hard walls at edges of the box: at rest, in motion, or of a temperature.
+//
+// The surface of a wall that moves at constant velocity is that of the edge of the box; one with a
+// temperature may slide in its plane, as belts do.
 #pragma once
 
 #include <cstdint>
@@ -6,6 +9,7 @@
 #include <vector>
 
 #include "kernels/wall_contact.h"
+#include "src/box/moving_edge.h"
 #include "src/effects/event_source.h"
 #include "src/physics/contact_time.h"
 
@@ -17,6 +21,8 @@ struct Wall {
   double epsilon = 1;
   double temperature = 0;  ///< 0: none; above, all velocities are drawn anew
   double turns = 0;        ///< phase of its motion at the start of the run, in turns
+  MovingEdge edge;         ///< its place, if that moves
+  Vec3d sliding{};         ///< its velocity in its plane; smooth walls have none [L / time]
 };
 
 /// The t_c rule for hits of walls: elastic if the needle's own last collision is less than this
@@ -50,6 +56,7 @@ class Walls final : public EventSource {
 
  private:
   DoubleDouble turns_at(const Clock& clock, const Wall& wall, Time time) const;
+  kernels::WallPlane plane_at(const Clock& clock, const Wall& wall, Time time) const;
   unsigned touching(const Record& record, Needle i, std::size_t wall) const;
   void leave_with_temperature(const NeedleAt& at, const Wall& wall, const Vec3d& normal, double arm,
                               SourceOutcome& outcome);

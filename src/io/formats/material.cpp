@@ -18,8 +18,8 @@
 namespace needlework {
 
 static void transfer(Archive& archive, Scene::WallMotion& motion) {
-  auto& [amplitude, frequency, phase] = motion;
-  archive(amplitude, frequency, phase);
+  auto& [amplitude, frequency, phase, velocity, stop_at, tangential] = motion;
+  archive(amplitude, frequency, phase, velocity, stop_at, tangential);
 }
 
 static void transfer(Archive& archive, Scene::Wall& wall) {
