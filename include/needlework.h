@@ -401,6 +401,17 @@ typedef struct needlework_wall {
   /* Mean over the run, impulse along the normal over area and time; NaN at its start [energy per
    * volume] */
   double pressure;
+  /* Place of its surface along its axis now [length] */
+  double place;
+  /* Of its energy, what its motion has done as work, per needle; the rest is heat, or what its
+   * restitution takes [energy] */
+  double work;
+  /* Sum of the impulses on the gas, along x [mass times length per time] */
+  double impulse_x;
+  /* The same along y [mass times length per time] */
+  double impulse_y;
+  /* The same along z [mass times length per time] */
+  double impulse_z;
   /* end of numbers */
 } needlework_wall;
 

@@ -133,6 +133,11 @@ module needlework
     real(c_double) :: phase
     real(c_double) :: energy
     real(c_double) :: pressure
+    real(c_double) :: place
+    real(c_double) :: work
+    real(c_double) :: impulse_x
+    real(c_double) :: impulse_y
+    real(c_double) :: impulse_z
     ! end of numbers
   end type
 

@@ -90,6 +90,17 @@ class WallTotals(Values):
     pressure: float
     """Mean over the run, impulse along the normal over area and time; NaN at its start [energy
     per volume]."""
+    place: float
+    """Place of its surface along its axis now [length]."""
+    work: float
+    """Of its energy, what its motion has done as work, per needle; the rest is heat, or what
+    its restitution takes [energy]."""
+    impulse_x: float
+    """Sum of the impulses on the gas, along x [mass times length per time]."""
+    impulse_y: float
+    """The same along y [mass times length per time]."""
+    impulse_z: float
+    """The same along z [mass times length per time]."""
     # end of numbers
 
 

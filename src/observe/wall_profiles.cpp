@@ -24,6 +24,7 @@ namespace {
 
 // Sums over the needles in one slab.
 struct SlabSums {
+  std::array<double, 3> momentum{};
   double count = 0, mass = 0, v_normal = 0, v2 = 0, v2_normal = 0, w2 = 0, p2 = 0, cos2 = 0;
   OrderTensor order;
 };
@@ -39,6 +40,8 @@ class WallProfiles : public Observable {
     const std::vector<SeriesField::Extent> axes{{"walled axes", slabs.size()}};
     auto each = axes;
     each.push_back({"slabs", count});
+    auto vectors = each;
+    vectors.push_back({"3", 3});
     auto tensors = each;
     tensors.insert(tensors.end(), {{"3", 3}, {"3", 3}});
     std::vector<double> axis, thickness, middles;
@@ -60,6 +63,10 @@ class WallProfiles : public Observable {
         {"t_rot", "Rotational temperature in each slab, the mean energy of rotation", unit::energy,
          each},
         {"t_normal", "Temperature of the motion along the axis in each slab, twice its mean energy",
+         unit::energy, each},
+        {"velocity", "Mean velocity in each slab", unit::speed, vectors},
+        {"t_tr_beside_flow",
+         "Translational temperature of the motion in each slab beside its mean velocity",
          unit::energy, each},
         {"p2", "Mean of (3 cos^2 - 1) / 2 of the angle between orientation and axis in each slab",
          unit::none, each},
@@ -102,6 +109,14 @@ class WallProfiles : public Observable {
     put_mean(&SlabSums::v2, gas_.mass / 3);
     put_mean(&SlabSums::w2, gas_.inertia / 2);
     put_mean(&SlabSums::v2_normal, gas_.mass);
+    for (const std::vector<SlabSums>& slabs : axes) {
+      for (const SlabSums& slab : slabs)
+        for (const double momentum : slab.momentum) row.put(momentum / slab.mass);
+    }
+    put([&](const SlabSums& slab, const Slabs&) {
+      const double of_flow = dot(slab.momentum, slab.momentum) / slab.mass;
+      return gas_.mass / 3 * ((slab.v2 - of_flow) / slab.count);
+    });
     put_mean(&SlabSums::p2, 1);
     put_mean(&SlabSums::cos2, gas_.inertia > 0 ? 1 : std::numeric_limits<double>::quiet_NaN());
     for (const std::vector<SlabSums>& slabs : axes)
@@ -123,6 +138,7 @@ class WallProfiles : public Observable {
       ++sums.count;
       sums.mass += mass;
       sums.v_normal += mass * normal;
+      for (std::size_t n = 0; n < 3; ++n) sums.momentum[n] += mass * v[n];
       sums.v2 += mass * dot(v, v);
       sums.v2_normal += mass * (normal * normal);
       sums.w2 += weights.inertia(i) * dot(w, w);

@@ -53,7 +53,8 @@ TEST(CourseWall, IsThatOfTheOracleInEveryFamily) {
       if (family == WallFamily::grazing && found.found != truth.found) {
         const WallContact deeper = [&] {
           WallCase other = a;
-          other.approach.wall.place += 1e-13 * a.approach.wall.normal;
+          other.approach.wall.place =
+              a.approach.wall.place + DoubleDouble(1e-13 * a.approach.wall.normal);
           return trajectory_wall_contact(trajectory, other.approach, 0, to);
         }();
         EXPECT_TRUE(deeper.found) << i;

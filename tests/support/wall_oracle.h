@@ -45,7 +45,8 @@ class TipHeight {
     omega_ = sqrt(Real(w(0) * w(0) + w(1) * w(1) + w(2) * w(2)));
     along_ = half * u(axis);
     if (omega_ > 0) across_ = half * (w(next) * u(last) - w(last) * u(next)) / omega_;
-    start_ = sign * (Real(component(flight.r, axis)) - Real(a.wall.place));
+    start_ =
+        sign * (Real(component(flight.r, axis)) - (Real(a.wall.place.hi) + Real(a.wall.place.lo)));
     speed_ = sign * Real(component(flight.v, axis));
     half_fall_ = sign * Real(a.gravity) / 2;
     amplitude_ = sign * Real(a.wall.amplitude);
@@ -262,7 +263,7 @@ class DrawnWalls {
     f.w = project_out(normal() * (below(8) == 0 ? 0 : 3), f.u);
     set_rotation(f);
     f.r = normal();
-    along(f.r, a.wall.axis) = a.wall.place + a.wall.normal * uniform(0, 1.5);
+    along(f.r, a.wall.axis) = a.wall.place.hi + a.wall.normal * uniform(0, 1.5);
     return out;
   }
   // Moves the needle so that the lowest place of one tip is a little above or below the wall.
