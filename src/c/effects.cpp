@@ -22,7 +22,8 @@ int needlework_get_wall(needlework_simulation* simulation, size_t index, needlew
       throw c::UsageError("index = " + std::to_string(index) + ": expected that of one of " +
                           std::to_string(walls.size()) + " walls");
     }
-    *wall = {.axis = walls[index].axis, .high = walls[index].high};
+    wall->axis = walls[index].axis;
+    wall->high = walls[index].high;
     c::copy_numbers(walls[index], *wall, &needlework_wall::hits);
   });
 }

@@ -5,14 +5,16 @@
 //   flow          <v . e>, by mass
 //   t_tr, t_rot   <m v^2> / 3, <I w^2> / 2
 //   t_normal      <m (v . e)^2>
+//   velocity      <v>, by mass
+//   t_tr_beside_flow  <m (v - <v>)^2> / 3
 //   p2            <(3 (u . e)^2 - 1) / 2>
 //   cos2          <(u . e)^2>, 1/3 for random directors; no value for spheres, which have none
 //   order_tensor  <(3 u u - 1) / 2>, whose component along e twice is p2
 //   outside       number of needles in no slab
 //
 // Temperatures are those of the whole motion, as /series/t_tr is, so that means over slabs,
-// weighted by the density, are those of the gas. That relative to the flow is
-// t_tr - m flow^2 / 3.
+// weighted by the density, are those of the gas; but for t_tr_beside_flow, of which n needles miss
+// a share 1 / n, as they have their own mean.
 #include <algorithm>
 #include <limits>
 

@@ -20,7 +20,7 @@ using kernels::ContactGeometry;
 using kernels::Flight;
 using test::Random;
 using test::vec3;
-using Vector = Eigen::Vector3d;
+using EigenVector = Eigen::Vector3d;
 using Matrix = Eigen::Matrix3d;
 
 constexpr std::uint64_t encounter_seed = 909;
@@ -44,32 +44,32 @@ struct Encounter {
   }
 };
 
-Vector eigen(const Vec3d& a) { return {a.x, a.y, a.z}; }
+EigenVector eigen(const Vec3d& a) { return {a.x, a.y, a.z}; }
 
 /// Velocity of the contact point of the first needle relative to that of the second.
-Vector relative_velocity(const Encounter& e, const Vec3d& v1, const Vec3d& w1, const Vec3d& v2,
-                         const Vec3d& w2) {
+EigenVector relative_velocity(const Encounter& e, const Vec3d& v1, const Vec3d& w1, const Vec3d& v2,
+                              const Vec3d& w2) {
   const ContactGeometry& c = e.contact;
   return eigen(v1) - eigen(v2) + c.arm_first * eigen(w1).cross(eigen(c.u_first)) -
          c.arm_second * eigen(w2).cross(eigen(c.u_second));
 }
 
-Vector velocity_before(const Encounter& e) {
+EigenVector velocity_before(const Encounter& e) {
   return relative_velocity(e, e.first.v, e.first.w, e.second.v, e.second.w);
 }
-Vector velocity_after(const Encounter& e, const Impact& impact) {
+EigenVector velocity_after(const Encounter& e, const Impact& impact) {
   return relative_velocity(e, impact.v_first, impact.w_first, impact.v_second, impact.w_second);
 }
 
 /// Directors at this angle in a random plane.
 Encounter draw(Random& random, double angle) {
   Encounter e;
-  const Vector n = eigen(vec3(random.direction()));
-  const Vector other = eigen(vec3(random.direction()));
-  const Vector e1 = n.cross(other).normalized(), e2 = n.cross(e1);
+  const EigenVector n = eigen(vec3(random.direction()));
+  const EigenVector other = eigen(vec3(random.direction()));
+  const EigenVector e1 = n.cross(other).normalized(), e2 = n.cross(e1);
   const double turn = random.uniform(0, 6.3);
-  const auto director = [&](double a) { return Vector(std::cos(a) * e1 + std::sin(a) * e2); };
-  const Vector u1 = director(turn), u2 = director(turn + angle);
+  const auto director = [&](double a) { return EigenVector(std::cos(a) * e1 + std::sin(a) * e2); };
+  const EigenVector u1 = director(turn), u2 = director(turn + angle);
   e.contact.u_first = {u1.x(), u1.y(), u1.z()};
   e.contact.u_second = {u2.x(), u2.y(), u2.z()};
   e.contact.normal = {n.x(), n.y(), n.z()};
@@ -98,7 +98,7 @@ double draw_angle(Random& random) {
 
 Matrix mass_matrix(const Encounter& e) {
   const auto part = [&](const Vec3d& director, double arm) {
-    const Vector u = eigen(director);
+    const EigenVector u = eigen(director);
     return Matrix(2 * e.k * arm * arm * (Matrix::Identity() - u * u.transpose()));
   };
   return 2 * Matrix::Identity() + part(e.contact.u_first, e.contact.arm_first) +
@@ -135,11 +135,11 @@ class Collide : public testing::Test {
 
 TEST_F(Collide, GivesTheImpulseOfTheDenseEquations) {
   for_each_encounter([](const Encounter& e, const Impact& impact) {
-    const Vector n = eigen(e.contact.normal), v = velocity_before(e);
+    const EigenVector n = eigen(e.contact.normal), v = velocity_before(e);
     const double vn = v.dot(n);
-    const Vector right =
+    const EigenVector right =
         -(1 + e.restitution.epsilon) * vn * n - (1 + e.restitution.beta) * (v - vn * n);
-    const Vector impulse = mass_matrix(e).ldlt().solve(right);
+    const EigenVector impulse = mass_matrix(e).ldlt().solve(right);
     EXPECT_LT((eigen(impact.impulse) - impulse).norm(), 4 * noise(e, impact));
     EXPECT_NEAR(impact.normal_velocity, vn, noise(e, impact));
   });
@@ -153,9 +153,9 @@ TEST_F(Collide, ChangesTheEnergyByWhatItSays) {
     EXPECT_NEAR(after - before, impact.energy_change, 1e-13 * (before + after));
     EXPECT_LE(impact.energy_change, 0);
     // The formula, with the inverse of the mass matrix in the plane.
-    const Vector n = eigen(e.contact.normal), v = velocity_before(e);
+    const EigenVector n = eigen(e.contact.normal), v = velocity_before(e);
     const double vn = v.dot(n);
-    const Vector vt = v - vn * n;
+    const EigenVector vt = v - vn * n;
     const Matrix m = mass_matrix(e);
     const double epsilon = e.restitution.epsilon, beta = e.restitution.beta;
     const double formula = -0.5 * (1 - epsilon * epsilon) * vn * vn / n.dot(m * n) -
@@ -175,7 +175,7 @@ TEST_F(Collide, ConservesMomentumAndAngularMomentaAboutTheContact) {
     EXPECT_LT(eigen(after - before).norm(), noise(e, impact));
     const double inertia = 1 / (2 * e.k);
     const auto about_contact = [&](const Vec3d& u, double arm, const Vec3d& v, const Vec3d& w) {
-      return Vector(inertia * eigen(w) - arm * eigen(u).cross(eigen(v)));
+      return EigenVector(inertia * eigen(w) - arm * eigen(u).cross(eigen(v)));
     };
     const auto& c = e.contact;
     EXPECT_LT((about_contact(c.u_first, c.arm_first, impact.v_first, impact.w_first) -

@@ -62,16 +62,17 @@ std::vector<double> levels(const Drawing& drawing, Colour colour) {
 
 TEST(Walls, AreWhereTheirMotionHasBroughtThem) {
   const std::vector walls{shaken("z", "low"), shaken("z", "high", 1.0), wall_at("x", "high")};
-  const Vector box{4, 5, 6};
+  State state;
+  state.box = {4, 5, 6};
   for (const double time : {0.0, 1.0, 7.3, 1e6 + 3}) {
-    const auto surfaces = surfaces_of(walls, box, time);
+    const auto surfaces = surfaces_of(walls, state, time);
     ASSERT_EQ(surfaces.size(), 3);
     const double angle = 2 * M_PI * 0.25 * std::fmod(time, 4.0);
     EXPECT_NEAR(surfaces[0].place, 0.5 * std::sin(angle), 1e-9) << time;
     EXPECT_NEAR(surfaces[1].place, 6 + 0.5 * std::sin(angle + 1), 1e-9) << time;
     EXPECT_EQ(surfaces[2].place, 4);
   }
-  const auto unknown = surfaces_of(walls, box, {});
+  const auto unknown = surfaces_of(walls, state, {});
   EXPECT_EQ(unknown[0].place, 0);
   EXPECT_EQ(unknown[1].place, 6);
 }
@@ -111,7 +112,7 @@ TEST(Walls, LeaveSidesOppositeToThemOpen) {
 
 TEST(RegionOfAPicture, ReachesToTheHighestCentreAndToWallsBeyondTheBox) {
   State state = confined(4, {{1, 1, 9.5}, {7, -3, 1}});
-  Region region = region_of(state, surfaces_of(std::vector{shaken("z", "low")}, state.box, 3.0));
+  Region region = region_of(state, surfaces_of(std::vector{shaken("z", "low")}, state, 3.0));
   EXPECT_EQ(region.low, (Vector{0, 0, -0.5}));
   EXPECT_EQ(region.high, (Vector{4, 4, 9.5}));
   state.periodic = {true, true, true};
