@@ -49,6 +49,13 @@ Scene among_spheres(const Species& body, std::uint64_t spheres, double diameter,
   return scene;
 }
 
+double square(const std::array<double, 3>& a) { return a[0] * a[0] + a[1] * a[1] + a[2] * a[2]; }
+
+// Of needle i, with I = 1 / 12.
+double energy_of(const State& state, std::size_t i) {
+  return (square(state.velocity[i]) + square(state.angular_velocity[i]) / 12) / 2;
+}
+
 // Needles of L = m = 1, k = 6 at T = 1 meet n fixed spheres per volume at the rate
 //
 //   nu / n = (2 pi R L <sqrt(1 + 2 k x^2)> + 4 pi R^2 <sqrt(1 + (k / 2) (1 - c^2))>) / sqrt(2 pi),
@@ -76,14 +83,8 @@ test::Measured needle_rate_over_exact(const NeedleCase& which, double density_ex
         among_spheres({.count = needles}, spheres, 2 * r, edge, 40 + std::uint64_t(draw));
     const State start = draw_initial_state(scene);
     double exact = 0;
-    for (std::size_t i = 0; i < needles; ++i) {
-      const auto square = [](const std::array<double, 3>& a) {
-        return a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
-      };
-      const double energy =
-          (square(start.velocity[i]) + square(start.angular_velocity[i]) / 12) / 2;
-      exact += 1.0509358 * n * which.rate * std::sqrt(0.4 * energy);
-    }
+    for (std::size_t i = 0; i < needles; ++i)
+      exact += 1.0509358 * n * which.rate * std::sqrt(0.4 * energy_of(start, i));
     Simulation gas(scene, start);
     const double time = hits * needles / exact;
     gas.advance(test::until_time(time));
@@ -94,7 +95,7 @@ test::Measured needle_rate_over_exact(const NeedleCase& which, double density_ex
   return ratio.measured();
 }
 
-class NeedlesAmongFixedSpheres : public testing::TestWithParam<NeedleCase> {
+class NeedlesAmongSpheresOfRadius : public testing::TestWithParam<NeedleCase> {
  protected:
   static void expect_exact(int draws, double hits, double largest_error) {
     for (const double density_excluded : {0.05, 1.2}) {
@@ -105,14 +106,38 @@ class NeedlesAmongFixedSpheres : public testing::TestWithParam<NeedleCase> {
   }
 };
 
-TEST_P(NeedlesAmongFixedSpheres, CollideAtTheExactRate) { expect_exact(6, 3.5, 0.015); }
+TEST_P(NeedlesAmongSpheresOfRadius, CollideAtTheExactRate) { expect_exact(6, 3.5, 0.015); }
 
-TEST_P(NeedlesAmongFixedSpheres, CollideAtTheExactRateToSomeThousandths_long) {
+TEST_P(NeedlesAmongSpheresOfRadius, CollideAtTheExactRateToSomeThousandths_long) {
   expect_exact(60, 8, 0.004);
 }
 
-INSTANTIATE_TEST_SUITE_P(Radii, NeedlesAmongFixedSpheres, testing::ValuesIn(needle_cases),
+INSTANTIATE_TEST_SUITE_P(Fixed, NeedlesAmongSpheresOfRadius, testing::ValuesIn(needle_cases),
                          [](const auto& test) { return std::string(test.param.name); });
+
+// Each exchanges energy between translation and rotation only.
+TEST(NeedlesAmongFixedSpheres, KeepTheirEnergies) {
+  constexpr std::size_t needles = 100;
+  const Scene scene = among_spheres({.count = needles}, 1000, 0.2, 5, 3);
+  const State start = draw_initial_state(scene);
+  Simulation gas(scene, start);
+  gas.advance(test::until_time(10));
+  EXPECT_GT(gas.collisions(), 20 * needles);
+  const State now = gas.copy();
+  Mean of_flight, changed;
+  for (std::size_t i = 0; i < needles; ++i) {
+    const double energy = energy_of(start, i);
+    EXPECT_NEAR(energy_of(now, i), energy, 1e-12 * energy) << i;
+    of_flight.add(square(now.velocity[i]) / 2 / energy);
+    changed.add(std::abs(square(now.velocity[i]) - square(start.velocity[i])) / 2 / energy);
+  }
+  EXPECT_TRUE(agrees(of_flight.measured(), 0.6, 3.5));
+  EXPECT_GT(changed.measured().value, 0.1);
+  for (std::size_t i = needles; i < now.size(); ++i) {
+    ASSERT_EQ(now.position[i], start.position[i]);
+    ASSERT_EQ(square(now.velocity[i]) + square(now.angular_velocity[i]), 0);
+  }
+}
 
 // Points are spheres that move: R is the sum of the radii, here 1, of which they have 0.2.
 constexpr double point_diameter = 0.4, obstacle_diameter = 1.6, volume_of_one = 4 * pi / 3;
@@ -128,9 +153,8 @@ struct Points {
                           obstacle_diameter, std::cbrt(volume), seed);
     start = draw_initial_state(scene);
     for (std::size_t i = 0; i < count; ++i) {
-      std::array<double, 3>& v = start.velocity[i];
-      const double speed = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-      for (double& component : v) component /= speed;
+      const double speed = std::sqrt(square(start.velocity[i]));
+      for (double& component : start.velocity[i]) component /= speed;
     }
     path = (1 - volume_of_one / volume) / (pi * density);
   }
