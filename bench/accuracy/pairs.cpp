@@ -205,6 +205,8 @@ int run(const Options& options) {
     return 0;
   }
   static_cast<void>(family_named(test::pair_families(), options.family));
+  if (options.longest != 1 && options.digits == test::Digits::fewest)
+    throw InputError("--fewest-digits: expected no --longest: its bounds are those of length 1");
   std::vector<Subject> subjects;
   for (const std::string& text : options.accuracies) subjects.push_back(subject_of(text));
   std::ofstream listed;
