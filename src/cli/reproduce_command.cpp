@@ -26,7 +26,8 @@ const std::vector<Group>& groups() {
       {"between walls", {"walls", "sedimentation", "settling", "piston", "channels"}},
       {"rods", {"rods", "rods-flow", "nematic"}},
       {"sliding contact", {"sliding"}},
-      {"liquid", {"liquid", "liquid-correlations"}}};
+      {"liquid", {"liquid", "liquid-correlations"}},
+      {"fixed bodies", {"obstacles"}}};
   return all;
 }
 

@@ -1,7 +1,8 @@
 """All figures, those of the paper first."""
 
 from . import (alignment, boltzmann, causes, confined, dense, dilute, driving, flow, flows,
-               fluctuations, large, liquid, nematic, ratio, relaxation, rods, shear, sliding)
+               fluctuations, large, liquid, nematic, obstacles, ratio, relaxation, rods, shear,
+               sliding)
 from .figure import Figure
 
 FIGURES = {figure.name: figure for figure in (
@@ -91,5 +92,7 @@ FIGURES = {figure.name: figure for figure in (
            (*liquid.SETS, *liquid.OTHER_SIZES), liquid.measure_liquid, liquid.draw_liquid),
     Figure("liquid-correlations", "Beyond the paper: correlations in time in the liquid",
            liquid.SETS, liquid.measure_correlations, liquid.draw_correlations),
+    Figure("obstacles", "Beyond the paper: diffusion of needles among bodies that do not move",
+           tuple(obstacles.SETS), obstacles.measure_obstacles, obstacles.draw_obstacles),
 )}
 """By name, as the command takes it."""
