@@ -31,6 +31,10 @@ def box(edge):
                      "until.collisions_per_needle": 605}
 
 
+CHANNEL = {"needles.box": [[3, 3, 6]], "output.grid": 6, "until.time": 40,
+           "output.series_every": 1}
+"""Of flows between thermal walls."""
+
 GRIDS = {
     "dilute": ("dilute", DILUTE),
     "dilute-tc": ("dilute", {**DILUTE, **TC}),
@@ -65,6 +69,22 @@ GRIDS = {
     "shear-large": ("shear", {**SHEAR, "needles.count": 50, "needles.box": 3}),
     "shear-rods": ("shear", {**SHEAR, "needles.diameter": 0.2}),
     "shear-spheres": ("shear-spheres", {"until.time": 2}),
+    "piston": ("piston", {"needles.count": 20, "needles.box": [[2.1, 2.1, 4]],
+                          "walls.z-high.motion.stop_at": 2,
+                          "walls.z-high.motion.velocity": [-1, -0.03], "until.time": 80,
+                          "output.series_every": 20}),
+    "piston-out": ("piston", {"needles.count": 20, "needles.box": [[2.1, 2.1, 2]],
+                              "walls.z-high.motion.stop_at": 4,
+                              "walls.z-high.motion.velocity": 1, "until.time": 5}),
+    "piston-spheres": ("piston-spheres", {"species.spheres.count": 20, "needles.box": [[4, 4, 8]],
+                                          "walls.z-high.motion.stop_at": 5,
+                                          "walls.z-high.motion.velocity": -1, "until.time": 5}),
+    "couette-needles": ("couette-needles", {**CHANNEL, "needles.count": 30}),
+    "couette-rods": ("couette-rods", {**CHANNEL, "species.rods.count": 20}),
+    "couette-spheres": ("couette-spheres", {**CHANNEL, "species.spheres.count": 20}),
+    "channel-needles": ("channel-needles", {**CHANNEL, "needles.count": 30}),
+    "channel-rods": ("channel-rods", {**CHANNEL, "species.rods.count": 20}),
+    "channel-spheres": ("channel-spheres", {**CHANNEL, "species.spheres.count": 20}),
     "walls": ("walls", {"needles.count": 30, "needles.box": [[3, 3, 2], [3, 3, 2.5]],
                         "collisions.epsilon": [1, 0.8], "until.energy_ratio": 0.05,
                         "until.time": 100}),
