@@ -85,6 +85,17 @@ void check_squares(std::span<const std::array<double, 3>> values, std::size_t co
   }
 }
 
+// Whether any two bodies pass through each other, besides fixed ones, which never meet.
+bool pass_through_each_other(const Composition& composition) {
+  for (std::size_t a = 0; a < composition.size(); ++a) {
+    for (std::size_t b = a; b < composition.size(); ++b) {
+      const bool may_move = !composition[a].fixed || !composition[b].fixed;
+      if (may_move && !composition.meets(a, b)) return true;
+    }
+  }
+  return false;
+}
+
 std::string name_effects(const Run& run) {
   const auto& rules = run.gas.composition.rules();
   const bool inelastic = std::any_of(rules.begin(), rules.end(),
@@ -93,8 +104,10 @@ std::string name_effects(const Run& run) {
   if (run.effects.rough) out += " rough";
   if (run.effects.contact_time) out += " tc";
   if (run.gas.composition.is_mixture()) out += " mixture";
-  if (run.effects.passing) out += " passing";
+  if (pass_through_each_other(run.gas.composition)) out += " passing";
   if (run.effects.width) out += " rods";
+  if (run.gas.composition.has_own_sizes()) out += " sizes";
+  if (run.gas.composition.has_fixed()) out += " fixed";
   if (run.sliding) out += " sliding";
   for (const auto& source : run.sources) out += fmt::format(" {}s", source->name());
   if (run.gas.falls) out += " gravity";

@@ -48,11 +48,13 @@ TEST_F(SizesCommand, ExplainsWhatIsDrawnAndWhatCameOfIt) {
 // And compares the rate with that of the bodies drawn.
 TEST_F(SizesCommand, SumsUpARunBesideTheExactRate) {
   const Outcome done = run("run sizes.toml");
-  EXPECT_TRUE(contains(done.out, {"bodies        length lognormal of mean 1, width 0.3: drawn mean",
+  EXPECT_TRUE(contains(done.out, {"elastic sizes\n",
+                                  "bodies        length lognormal of mean 1, width 0.3: drawn mean",
                                   ", exact ", "ratio "}));
   EXPECT_FALSE(contains(done.out, "theory"));
   const auto result = json_of("run sizes.toml --json --quiet");
   EXPECT_TRUE(result["theory"].is_null());
+  EXPECT_EQ(result["effects"], "elastic sizes");
   const double ratio =
       result["collision_rate"].get<double>() / result["collision_rate_exact"].get<double>();
   EXPECT_NEAR(ratio, 1, 0.08);
@@ -103,6 +105,7 @@ TEST_F(SizesCommand, SumsUpARunAmongFixedOnesWithoutTheory) {
   EXPECT_NEAR(result["collision_rate"].get<double>(), result["collision_rate_exact"].get<double>(),
               0.1 * result["collision_rate"].get<double>());
   EXPECT_EQ(result["species"][1]["fixed"], true);
+  EXPECT_EQ(result["effects"], "elastic mixture fixed");
 }
 
 TEST_F(SizesCommand, SaysWhereTheoryDoesNotApply) {
