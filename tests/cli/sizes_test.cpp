@@ -135,6 +135,10 @@ TEST_F(SizesCommand, GivesThePressureOfSpheresThatDiffer) {
   EXPECT_LT(fluid, single);
   EXPECT_GT(fluid, 1 + (single - 1) * 0.8);
   EXPECT_TRUE(contains(output_of("theory spheres.toml"), " of the fluid"));
+  // Elastic, in equilibrium: there is no cooling that theory could be asked about.
+  const std::string done = output_of("run spheres.toml");
+  EXPECT_TRUE(contains(done, "  rate   "));
+  EXPECT_FALSE(contains(done, "theory"));
   EXPECT_TRUE(contains(output_of("check spheres.toml"), "spheres of different diameters"));
 }
 
