@@ -173,8 +173,8 @@ class Simulation {
   /// Temperatures, mean free time and the contact time in force follow the new velocities. The
   /// memory of the t_c rule, the hash of previous collisions, all counts and the initial energy,
   /// to which energy_ratio refers, are kept. Costs about as much as constructing the simulation,
-  /// because all needles are searched again. Must not be called by the callback. Throws InputError
-  /// for a wrong number of rows or for numbers that are not finite, and then changes nothing.
+  /// as all needles are searched again. Must not be called by the callback. Throws InputError for a
+  /// wrong number of rows, numbers not finite or motion of fixed needles, and then changes nothing.
   void set_velocities(std::span<const std::array<double, 3>> velocity,
                       std::span<const std::array<double, 3>> angular_velocity);
 

@@ -2,6 +2,8 @@
 
 ``source`` is what needlework.read() gives or the path of such a file, or a Series beside the
 ``gas`` of its simulation. Each function draws into ``axes``, or into new ones, and returns them.
+Kinetic theory is left out where bodies of a species differ or are fixed, whose cooling it does not
+follow.
 """
 
 from __future__ import annotations
@@ -112,11 +114,14 @@ def _draw(axes: Axes, series: Series, gas: Values, by_species: Values | None,
           quantities: list[tuple[str, Callable[[Any], np.ndarray]]]) -> None:
     """Of all bodies and of each species, each quantity as points beside the line of theory, where
     it is above 0."""
-    times, curve, curve_by_species = _theory(series, gas, by_species)
+    has_theory = _has_theory(gas)
+    times, curve, curve_by_species = (_theory(series, gas, by_species) if has_theory
+                                      else (None, None, None))
     parts = [(f"{gas.count} needles", series, curve)]
     if by_species is not None:
         names = gas.species[:len(_SPECIES)]
-        parts += [(name, _of_species(by_species, n), _of_species(curve_by_species, n))
+        parts += [(name, _of_species(by_species, n),
+                   _of_species(curve_by_species, n) if has_theory else None)
                   for n, name in enumerate(names)]
     colours = iter([_MEASURED["color"], *_SPECIES])
     line = dict(_THEORY)
@@ -124,12 +129,14 @@ def _draw(axes: Axes, series: Series, gas: Values, by_species: Values | None,
         colour = next(colours)
         for (text, quantity), fill in zip(quantities, (colour, "none")):
             with np.errstate(divide="ignore", invalid="ignore"):
-                values, theoretical = quantity(measured), quantity(expected)
+                values = quantity(measured)
+                theoretical = quantity(expected) if has_theory else None
             shown = (series.time > 0) & np.isfinite(values) & (values > 0)
             if not np.any(shown):
                 continue
-            axes.loglog(times, theoretical, **line)
-            line.pop("label", None)
+            if has_theory:
+                axes.loglog(times, theoretical, **line)
+                line.pop("label", None)
             label = f"{text} of {name}" if text else name
             axes.loglog(series.time[shown], values[shown],
                         **{**_MEASURED, "color": colour}, markerfacecolor=fill, label=label)
@@ -138,6 +145,11 @@ def _draw(axes: Axes, series: Series, gas: Values, by_species: Values | None,
 def _of_species(sums: Values, n: int) -> Values:
     t_tr, t_rot = sums.t_tr[:, n], sums.t_rot[:, n]
     return Values({"t_tr": t_tr, "t_rot": t_rot, "energy": 1.5 * t_tr + t_rot})
+
+
+def _has_theory(gas: Values) -> bool:
+    """Whether the theory of a gas that cools follows these bodies, as that of the program does."""
+    return not gas.get("differ", False) and bool(np.all(np.isfinite(gas.mass)))
 
 
 def _theory(series: Series, gas: Values,

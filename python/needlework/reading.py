@@ -252,10 +252,11 @@ class Recording(NotPickled):
         species the arrays species (their names), counts, k, length and mass, [species], and
         epsilon and beta of each two, [species, species]; meet, of each two whether they do, where
         some pass through each other; diameter of rods of finite width, of each
-        species of several; and undisturbed_until, when a caller
+        species of several; differ, whether bodies of a species do, of whom length, diameter, mass
+        and k are means; and undisturbed_until, when a caller
         first replaced the velocities, or inf."""
         given, first = self.parameters, self.frames[0]
-        facts = {"count": len(first.id), "box": first.box}
+        facts = {"count": len(first.id), "box": first.box, "differ": "length" in self._needles}
         if "species" in given:
             facts |= {"species": tuple(name.decode() for name in given.species),
                       "counts": given.counts}

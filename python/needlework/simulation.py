@@ -680,10 +680,11 @@ class Simulation(NotPickled):
         species the arrays species (their names), counts, k, length and mass, [species], and
         epsilon and beta of each two, [species, species]; meet, of each two whether they do, where
         some pass through each other; diameter of rods of finite width, of each
-        species of several; and undisturbed_until, the time of the
+        species of several; differ, whether bodies of a species do, of whom length, diameter, mass
+        and k are means; and undisturbed_until, the time of the
         first set_velocities(), or inf."""
         names = [name for name in ("count", "box", "species", "counts", "k", "epsilon", "beta",
-                                   "meet", "length", "mass", "diameter") if name in self._facts]
+                                   "meet", "length", "mass", "diameter", "differ") if name in self._facts]
         return Values({**{name: self._facts[name] for name in names},
                        "undisturbed_until": self._undisturbed_until})
 

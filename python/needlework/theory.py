@@ -172,7 +172,8 @@ def mixture_rates(gas: Mapping[str, Any], t_tr: ArrayLike, t_rot: ArrayLike) -> 
         length, mass and k ([species]); epsilon and beta of each two ([species, species]). One
         number stands for all, and length = 1, mass = 1, k = 6, epsilon = 1 and beta = -1 for what
         is not given. With a diameter they are rods of finite width, homogeneous where k is not
-        given, for which this is exact at low density.
+        given, for which this is exact at low density. Bodies that differ within a species, and
+        fixed ones, are refused.
     """
     given, size = _mixture(gas)
     collisions, d_tr, d_rot = _core.mixture_rates(*given, _each("t_tr", t_tr, size),
@@ -215,6 +216,12 @@ def homogeneous_k(length: ArrayLike, diameter: ArrayLike) -> np.ndarray:
 
 def _mixture(gas: Mapping[str, Any]) -> tuple[tuple[Any, ...], int]:
     """What _core takes of a mixture, up to its volume, and the number of species."""
+    if gas.get("differ", False):
+        raise InputError("gas: bodies that differ within a species: expected alike ones; "
+                         "`needlework theory` has the rates of others")
+    if np.any(np.isinf(numbers("mass", gas.get("mass", 1.0)))):
+        raise InputError("gas: fixed bodies: expected finite masses; `needlework theory` has the "
+                         "rates of those that move")
     counts = np.atleast_1d(numbers("counts", gas["counts"] if "counts" in gas else gas["count"]))
     size = counts.size
     if counts.ndim != 1 or size == 0:

@@ -391,6 +391,7 @@ std::string output_text(const Scene::Output& output) {
           ? fmt::format("{}, a series of samples every {:g}, ", output.file, *output.series_every)
           : fmt::format("{}, a series of {:g} samples per decade of time, ", output.file,
                         output.series_per_decade);
+  if (output.size_classes) text += fmt::format("{} classes by size, ", *output.size_classes);
   if (!output.observables.empty()) text += fmt::format("{}, ", fmt::join(output.observables, ", "));
   if (output.frames_every) {
     text += fmt::format("a frame every {:g}", *output.frames_every);
@@ -488,8 +489,10 @@ std::string text_of(const runs::Explanation& e) {
   text += line("box", fmt::format("{:g} x {:g} x {:g}, {:.4g} needles per {}", box[0], box[1],
                                   box[2], e.density, volume));
   if (composition.has_width()) {
-    text += line("packing", fmt::format("{:.4g} of the box is taken up by rods",
-                                        composition.packing_fraction(box[0] * box[1] * box[2])));
+    const bool overlap = std::ranges::any_of(composition.species(), &Species::overlap);
+    text += line("packing", fmt::format("{:.4g} of the box is taken up by rods{}",
+                                        composition.packing_fraction(box[0] * box[1] * box[2]),
+                                        overlap ? ", where they overlap more than once" : ""));
   }
   text += line("start", start_text(e));
   if (e.placing) text += line("placing", placing_text(e));

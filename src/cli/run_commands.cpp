@@ -187,8 +187,9 @@ void add_check_command(CLI::App& app, int& exit_code) {
   add_scene_arguments(*command, arguments->scene);
   add_json(*command, arguments->json);
   command->footer(
-      R"(What it expects of the run follows from kinetic theory. docs/json.md describes what
---json prints.
+      R"(What it expects of the run follows from kinetic theory. Where some needles are
+fixed, energies and mean free times are of those that move, and collisions per
+needle of all. docs/json.md describes what --json prints.
 
 Example:
   needlework check profiles/quickstart.toml)");

@@ -85,6 +85,30 @@ void check_squares(std::span<const std::array<double, 3>> values, std::size_t co
   }
 }
 
+// That rows of fixed needles are 0.
+void require_fixed_at_rest(const Gas& gas, const std::vector<Needle>& rows,
+                           std::span<const std::array<double, 3>> values, const char* what) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::array<double, 3>& a = values[i];
+    if (!gas.is_fixed(rows[i]) || a == std::array<double, 3>{}) continue;
+    throw InputError(
+        fmt::format("set_velocities: row {} of {} = ({}, {}, {}): expected 0, as its species is "
+                    "fixed",
+                    i, what, a[0], a[1], a[2]));
+  }
+}
+
+// Whether any two bodies pass through each other, besides fixed ones, which never meet.
+bool pass_through_each_other(const Composition& composition) {
+  for (std::size_t a = 0; a < composition.size(); ++a) {
+    for (std::size_t b = a; b < composition.size(); ++b) {
+      const bool may_move = !composition[a].fixed || !composition[b].fixed;
+      if (may_move && !composition.meets(a, b)) return true;
+    }
+  }
+  return false;
+}
+
 std::string name_effects(const Run& run) {
   const auto& rules = run.gas.composition.rules();
   const bool inelastic = std::any_of(rules.begin(), rules.end(),
@@ -93,8 +117,10 @@ std::string name_effects(const Run& run) {
   if (run.effects.rough) out += " rough";
   if (run.effects.contact_time) out += " tc";
   if (run.gas.composition.is_mixture()) out += " mixture";
-  if (run.effects.passing) out += " passing";
+  if (pass_through_each_other(run.gas.composition)) out += " passing";
   if (run.effects.width) out += " rods";
+  if (run.gas.composition.has_own_sizes()) out += " sizes";
+  if (run.gas.composition.has_fixed()) out += " fixed";
   if (run.sliding) out += " sliding";
   for (const auto& source : run.sources) out += fmt::format(" {}s", source->name());
   if (run.gas.falls) out += " gravity";
@@ -172,6 +198,10 @@ struct Simulation::Implementation {
     check_squares(velocity, rows.size(), "velocity", add_to(&SumsOfSquares::v2, &Weight::mass));
     check_squares(angular_velocity, rows.size(), "angular velocity",
                   add_to(&SumsOfSquares::w2, &Weight::inertia));
+    if (run.gas.composition.has_fixed()) {
+      require_fixed_at_rest(run.gas, rows, velocity, "velocity");
+      require_fixed_at_rest(run.gas, rows, angular_velocity, "angular velocity");
+    }
     const auto moves = [](const std::array<double, 3>& row) {
       return row != std::array<double, 3>{};
     };

@@ -54,6 +54,7 @@ void add_sizes(Json& json, const Species& species) {
   add("diameter", sizes.diameter, drawn.diameter, "aspect", drawn.aspect);
   if (species.fixed) return;
   add("mass", sizes.mass, drawn.mass, "density", drawn.density);
+  if (!species.turns()) return;
   add("k", sizes.k, drawn.k);
   add("inertia", sizes.inertia, drawn.inertia);
 }

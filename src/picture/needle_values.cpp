@@ -14,15 +14,28 @@
 namespace needlework::picture {
 namespace {
 
-double root_mean_square(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value * value;
-  return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
+// Whether it has an infinite mass; of a file that does not say masses, none has.
+bool is_fixed(const State& state, std::size_t i) {
+  const std::vector<double>&own = state.own_bodies.mass, &all = state.bodies.mass;
+  if (!own.empty()) return std::isinf(own[i]);
+  const std::size_t species = state.species.empty() ? 0 : state.species[i];
+  return species < all.size() && std::isinf(all[species]);
+}
+
+// Of the needles that move.
+double root_mean_square(const std::vector<double>& values, const State& state) {
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (is_fixed(state, i)) continue;
+    sum += values[i] * values[i];
+    ++count;
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0;
 }
 
 // Divides by the root mean square, which is named in the label.
-void make_relative(NeedleValues& result, const std::string& name) {
-  const double unit = root_mean_square(result.values);
+void make_relative(NeedleValues& result, const State& state, const std::string& name) {
+  const double unit = root_mean_square(result.values, state);
   if (unit > 0) {
     for (double& value : result.values) value /= unit;
   }
@@ -208,19 +221,19 @@ NeedleValues values_of(const std::string& quantity, const State& state, bool dar
   NeedleValues result{{}, "", {0, 2}, sequential_gradient(dark)};
   if (quantity == "speed") {
     result.values = lengths(state.velocity);
-    make_relative(result, "speed");
+    make_relative(result, state, "speed");
   } else if (quantity == "spin") {
     result.values = lengths(state.angular_velocity);
-    make_relative(result, "spin");
+    make_relative(result, state, "spin");
   } else if (quantity == "vx" || quantity == "vy" || quantity == "vz") {
     const auto axis = static_cast<std::size_t>(quantity[1] - 'x');
     for (const Vector& v : state.velocity) result.values.push_back(v[axis]);
-    make_relative(result, quantity);
+    make_relative(result, state, quantity);
     result.range = {-2, 2};
     result.gradient = diverging_gradient(dark);
   } else if (quantity == "flow-x" || quantity == "flow-y" || quantity == "flow-z") {
     result.values = flows(state, static_cast<std::size_t>(quantity.back() - 'x'));
-    const double unit = root_mean_square(lengths(state.velocity)) / std::sqrt(3);
+    const double unit = root_mean_square(lengths(state.velocity), state) / std::sqrt(3);
     if (unit > 0) {
       for (double& value : result.values) value /= unit;
     }

@@ -428,6 +428,7 @@ py::dict Run::facts() {
     if (composition.has_width()) out["diameter"] = composition[0].diameter;
     if (!composition.all_meet()) out["meet"] = composition.meets(0, 0);
   }
+  out["differ"] = composition.has_own_sizes();
   out["bodies"] = columns_of(bodies_of(composition));
   out["search"] = simulation.search();
   out["queue"] = simulation.queue();

@@ -282,9 +282,10 @@ bool starts_in_equilibrium(const Scene& scene) {
   const double t = temperature_of(composition);
   return !composition.is_inelastic() && stays_at_temperature(scene, t) &&
          scene.initial.file.empty() && t > 0 &&
-         std::ranges::all_of(
-             composition.species(),
-             [&](const Species& s) { return s.fixed || (s.t_tr == t && s.t_rot == t); }) &&
+         std::ranges::all_of(composition.species(),
+                             [&](const Species& s) {
+                               return s.fixed || (s.t_tr == t && (s.t_rot == t || !s.turns()));
+                             }) &&
          composition.count() >= 2;
 }
 

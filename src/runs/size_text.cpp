@@ -74,6 +74,7 @@ std::vector<std::string> size_lines(const Species& species) {
   add(line_of(
       "mass", sizes.mass,
       drawn.density ? fmt::format(" of density {:g}", *drawn.density) : drawn_text(drawn.mass)));
+  if (!species.turns()) return out;
   add(line_of("k", sizes.k, drawn_text(drawn.k)));
   // It follows from the others, if it is not drawn.
   if (drawn.inertia) add(line_of("inertia", sizes.inertia, drawn_text(drawn.inertia)));

@@ -23,7 +23,8 @@ double densest_packing(const Species& species) {
   return species.volume() / (0.5 * std::sqrt(3.0) * width * width * layer);
 }
 
-// How many tries a body needs among so many others per volume, whose measures these are.
+// How many tries a body needs among so many others per volume, whose measures these are, and which
+// exclude each other.
 double tries_among(const ConvexBody& body, const ConvexBody& fluid, double number) {
   const double free = 1 - fluid.volume;
   if (!(free > 0)) return std::numeric_limits<double>::infinity();
@@ -33,6 +34,30 @@ double tries_among(const ConvexBody& body, const ConvexBody& fluid, double numbe
                   pressure * body.volume) /
          free;
 }
+
+// The same among bodies that lie anywhere, so that the places that they leave are fewer by a factor
+// for each of them.
+double tries_among_strewn(const ConvexBody& body, const ConvexBody& strewn, double number) {
+  return std::exp(strewn.volume + body.radius * strewn.surface + body.surface * strewn.radius +
+                  number * body.volume);
+}
+
+// What is in the way of a body.
+struct Others {
+  ConvexBody fluid;  ///< of those that exclude each other
+  double number = 0;
+  ConvexBody strewn;  ///< of those that may overlap each other
+  double strewn_number = 0;
+
+  void add(const Species& each, double density) {
+    const bool overlap = each.fixed && each.overlap;
+    needlework::add(overlap ? strewn : fluid, convex_body(each), density);
+    (overlap ? strewn_number : number) += density;
+  }
+  double tries(const ConvexBody& body) const {
+    return tries_among(body, fluid, number) * tries_among_strewn(body, strewn, strewn_number);
+  }
+};
 
 }  // namespace
 
@@ -59,9 +84,7 @@ double estimated_tries(const Composition& composition, double volume) {
     return excluded_volume(composition[n], composition[n]);
   });
   constexpr int parts = 16;
-  // What is in the way of each species: those that it meets.
-  std::vector<ConvexBody> fluid(composition.size());
-  std::vector<double> number(composition.size());
+  std::vector<Others> in_the_way(composition.size());  // of each species
   double tries = 0, count = 0;
   for (const std::size_t n : order) {
     const Species& each = composition[n];
@@ -69,14 +92,13 @@ double estimated_tries(const Composition& composition, double volume) {
     const double part = static_cast<double>(each.count) / parts;
     const auto add_half = [&] {
       for (std::size_t other = 0; other < composition.size(); ++other) {
-        if (!composition.meets(n, other)) continue;
-        add(fluid[other], body, 0.5 * part / volume);
-        number[other] += 0.5 * part / volume;
+        if (composition.may_overlap(n, other)) continue;
+        in_the_way[other].add(each, 0.5 * part / volume);
       }
     };
     for (int i = 0; i < parts && part > 0; ++i) {
       add_half();
-      tries += part * tries_among(body, fluid[n], number[n]);
+      tries += part * in_the_way[n].tries(body);
       add_half();
     }
     count += static_cast<double>(each.count);

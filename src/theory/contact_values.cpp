@@ -48,8 +48,10 @@ Diameters diameters_of(const Species& species, double packing) {
 
 ConvexBody fluid_of(const Composition& composition, double volume) {
   ConvexBody out;
-  for (const Species& each : composition.species())
+  for (const Species& each : composition.species()) {
+    if (each.fixed && each.overlap) continue;
     add(out, convex_body(each), static_cast<double>(each.count) / volume);
+  }
   return out;
 }
 

@@ -48,11 +48,13 @@ TEST_F(SizesCommand, ExplainsWhatIsDrawnAndWhatCameOfIt) {
 // And compares the rate with that of the bodies drawn.
 TEST_F(SizesCommand, SumsUpARunBesideTheExactRate) {
   const Outcome done = run("run sizes.toml");
-  EXPECT_TRUE(contains(done.out, {"bodies        length lognormal of mean 1, width 0.3: drawn mean",
+  EXPECT_TRUE(contains(done.out, {"elastic sizes\n",
+                                  "bodies        length lognormal of mean 1, width 0.3: drawn mean",
                                   ", exact ", "ratio "}));
   EXPECT_FALSE(contains(done.out, "theory"));
   const auto result = json_of("run sizes.toml --json --quiet");
   EXPECT_TRUE(result["theory"].is_null());
+  EXPECT_EQ(result["effects"], "elastic sizes");
   const double ratio =
       result["collision_rate"].get<double>() / result["collision_rate_exact"].get<double>();
   EXPECT_NEAR(ratio, 1, 0.08);
@@ -103,6 +105,7 @@ TEST_F(SizesCommand, SumsUpARunAmongFixedOnesWithoutTheory) {
   EXPECT_NEAR(result["collision_rate"].get<double>(), result["collision_rate_exact"].get<double>(),
               0.1 * result["collision_rate"].get<double>());
   EXPECT_EQ(result["species"][1]["fixed"], true);
+  EXPECT_EQ(result["effects"], "elastic mixture fixed");
 }
 
 TEST_F(SizesCommand, SaysWhereTheoryDoesNotApply) {
@@ -132,6 +135,10 @@ TEST_F(SizesCommand, GivesThePressureOfSpheresThatDiffer) {
   EXPECT_LT(fluid, single);
   EXPECT_GT(fluid, 1 + (single - 1) * 0.8);
   EXPECT_TRUE(contains(output_of("theory spheres.toml"), " of the fluid"));
+  // Elastic, in equilibrium: there is no cooling that theory could be asked about.
+  const std::string done = output_of("run spheres.toml");
+  EXPECT_TRUE(contains(done, "  rate   "));
+  EXPECT_FALSE(contains(done, "theory"));
   EXPECT_TRUE(contains(output_of("check spheres.toml"), "spheres of different diameters"));
 }
 

@@ -359,6 +359,33 @@ TEST(SetVelocities, RefusesBadRowsAndChangesNothing) {
   EXPECT_EQ(simulation.counters().searches, truth.counters().searches);
 }
 
+TEST(SetVelocities, LeavesFixedNeedlesAtRest) {
+  Scene scene = test::scene_of(0, 6, 5);
+  scene.species = {{.name = "moving", .count = 20}, {.name = "still", .count = 10, .fixed = true}};
+  Simulation simulation(scene);
+  const State state = simulation.copy();
+  const auto refused = [&](Rows velocity, Rows angular_velocity) {
+    return test::message_of<InputError>(
+        [&] { simulation.set_velocities(velocity, angular_velocity); });
+  };
+  Rows v = state.velocity, w = state.angular_velocity;
+  for (std::size_t i = 0; i < 20; ++i) v[i] = {1, 0, 0};
+  const Rows along = v;
+  v[20] = {0, 0, 2};
+  EXPECT_EQ(refused(v, w),
+            "set_velocities: row 20 of velocity = (0, 0, 2): expected 0, as its species is fixed");
+  w[29] = {0, 1, 0};
+  EXPECT_EQ(refused(along, w),
+            "set_velocities: row 29 of angular velocity = (0, 1, 0): expected 0, as its species is "
+            "fixed");
+  EXPECT_EQ(simulation.copy().velocity, state.velocity);
+  simulation.set_velocities(along, state.angular_velocity);
+  simulation.advance(until_collisions(5));
+  const State after = simulation.copy();
+  EXPECT_TRUE(
+      std::equal(after.position.begin() + 20, after.position.end(), state.position.begin() + 20));
+}
+
 TEST(SetVelocities, OfNoNeedlesOrOneAreSet) {
   Simulation none(test::scene_of(0, 4));
   none.set_velocities({}, {});

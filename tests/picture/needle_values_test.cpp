@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <stdexcept>
@@ -40,6 +41,19 @@ TEST(NeedleValues, OfSpeedAndSpinAreMultiplesOfTheRootMeanSquare) {
   EXPECT_NEAR(values("spin", state)[1], std::sqrt(2), 1e-12);
   EXPECT_NEAR(values("vy", state)[0], std::sqrt(2), 1e-12);
   EXPECT_NEAR(values("vy", state)[1], 0, 1e-12);
+}
+
+TEST(NeedleValues, OfSpeedsAreMultiplesOfThoseOfNeedlesThatMove) {
+  State state = needles_at(3, {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}});
+  state.velocity = {{0, 3, 4}, {0, 0, 0}, {0, 0, 5}};
+  constexpr double fixed = std::numeric_limits<double>::infinity();
+  state.own_bodies.mass = {1, fixed, 2};
+  EXPECT_EQ(values("speed", state), (std::vector{1.0, 0.0, 1.0}));
+  state.own_bodies = {};
+  state.species = {0, 1, 0};
+  state.bodies.mass = {1, fixed};
+  EXPECT_EQ(values("speed", state), (std::vector{1.0, 0.0, 1.0}));
+  EXPECT_EQ(values_of("flow-z", state, true).label, "flow-z / 2.89 (thermal)");
 }
 
 TEST(NeedleValues, OfAlignmentAreTwoAlongTheVelocityAndMinusOneAcross) {

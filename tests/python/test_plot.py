@@ -157,5 +157,50 @@ class PicturesOfAMixture(InFolder):
                                       self.sums.t_tr[1:, 0] / self.sums.t_rot[1:, 0])
 
 
+class PicturesWithoutTheory(InFolder):
+    """Of bodies that differ within a species, and of fixed ones, whose cooling no theory follows."""
+
+    def setUp(self):
+        super().setUp()
+        self.addCleanup(pyplot.close, "all")
+
+    def recorded(self, *species):
+        path = self.folder / "run.h5"
+        scene = gas(output={"file": str(path)}, until={"collisions_per_needle": 3})
+        scene["needles"] = {"box": 8.0, "seed": 3}
+        with Simulation({**scene, "species": list(species)}, force=True) as sim:
+            sim.run()
+            return path, sim.gas
+
+    def assert_points_alone(self, axes, names):
+        self.assertEqual([text.get_text() for text in axes.get_legend().get_texts()], names)
+        self.assertEqual([line.get_label() for line in axes.lines], names)
+        self.assertTrue(all(len(line.get_xdata()) > 3 for line in axes.lines))
+
+    def test_lengths_that_differ_have_points_alone(self):
+        path, of_run = self.recorded({"name": "a", "count": 60,
+                                      "length": {"distribution": "gamma", "mean": 1, "width": 0.4}})
+        self.assertTrue(of_run.differ)
+        with read(path) as recording:
+            self.assertTrue(recording.gas.differ)
+            series = recording.series
+        self.assert_points_alone(plot.cooling(path), ["60 needles"])
+        self.assert_points_alone(plot.cooling(series, gas=of_run), ["60 needles"])
+        self.assert_points_alone(plot.temperature_ratio(path), ["60 needles"])
+        self.assert_points_alone(plot.temperatures(path), [r"$T_{\rm tr}$ of 60 needles",
+                                                           r"$T_{\rm rot}$ of 60 needles"])
+        with self.assertRaisesRegex(needlework.InputError, "differ within a species"):
+            needlework.theory.mixture_rates(of_run, 1, 1)
+
+    def test_a_mixture_with_fixed_ones_has_points_of_those_that_move(self):
+        path, of_run = self.recorded({"name": "light", "count": 60},
+                                     {"name": "still", "count": 40, "fixed": True})
+        self.assertFalse(of_run.differ)
+        self.assert_points_alone(plot.cooling(path), ["100 needles", "light"])
+        self.assert_points_alone(plot.temperature_ratio(path), ["100 needles", "light"])
+        with self.assertRaisesRegex(needlework.InputError, "fixed bodies"):
+            needlework.theory.mixture_cooling(of_run, 1, 1, [1.0])
+
+
 if __name__ == "__main__":
     unittest.main()

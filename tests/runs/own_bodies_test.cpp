@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -119,6 +120,23 @@ TEST(FixedBodies, AreHitAtTheStartAtTheRateOfTheMovingOnes) {
   EXPECT_NEAR(rates[1], 100 * one, 1e-6 * 100 * one);
   EXPECT_EQ(rates[0], 0);
   EXPECT_EQ(rates[2], 0);
+}
+
+// Law: fixed bodies that lie anywhere are met as often as at low density, however densely they lie;
+// those that keep apart leave a needle less of the box by their share of it.
+TEST(FixedBodies, AreMetAsOftenAsTheyLeaveRoom) {
+  for (const bool overlap : {true, false}) {
+    const LoadedScene loaded{
+        parsed(
+            "needles.box = 8\nuntil.time = 1\n[[species]]\nname = \"moving\"\ncount = 10\n"
+            "[[species]]\nname = \"still\"\ncount = 200\nlength = 0\ndiameter = 1\nfixed = true\n"
+            "overlap = " +
+            std::string(overlap ? "true" : "false")),
+        {}};
+    const double free = 1 - 200 * std::numbers::pi / 6 / 512;
+    const double factor = initial_contacts_by_pair(loaded)[1] / initial_rates_by_pair(loaded)[1];
+    EXPECT_NEAR(factor, overlap ? 1 : 1 / free, 1e-12);
+  }
 }
 
 // Those that meet fixed ones alone keep their energies E, and have 1.0509358 of the rate at T = 2 E

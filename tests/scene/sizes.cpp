@@ -35,10 +35,9 @@ TEST(Sizes, ExcludeOtherKeysOfTheirSpeciesAlone) {
   const Scene scene = parsed(head + lengths + "[[species]]\nname = \"b\"\ncount = 3\nlength = 2\n");
   EXPECT_TRUE(scene.composition()[0].sizes);
   EXPECT_EQ(scene.composition()[1].length, 2);
-  EXPECT_EQ(
-      refused(head + "mass = { density = 1, distribution = \"uniform\", mean = 1 }\n"),
-      "s.toml: line 6: species.mass.distribution = \"uniform\": expected one way in which they "
-      "follow, not two");
+  EXPECT_EQ(refused(head + "mass = { density = 1, distribution = \"uniform\", mean = 1 }\n"),
+            "s.toml: line 6: species.mass.distribution = \"uniform\": expected either mass.density "
+            "or mass.distribution, not both");
 }
 
 TEST(Sizes, AreReplacedByOverridesOfTheirSpeciesAlone) {

@@ -39,9 +39,10 @@ std::optional<Violation> box_is_too_small_or_large(const Scene& scene) {
   const bool is_plain =
       composition.longest() == 1 && scene.walls.empty() && !scene.collisions.sliding;
   if (is_plain) return violation_of_box(scene, fmt::format("expected {}", expected_box));
-  return violation_of_box(scene,
-                          fmt::format("expected {}{}", room.expected_instead_of(box),
-                                      composition.is_mixture() ? ", of the longest species" : ""));
+  return violation_of_box(scene, fmt::format("expected {}{}", room.expected_instead_of(box),
+                                             composition.has_own_sizes() ? ", of the longest body"
+                                             : composition.is_mixture() ? ", of the longest species"
+                                                                        : ""));
 }
 
 std::optional<Violation> needles_are_too_sparse(const Scene& scene) {

@@ -88,10 +88,9 @@ std::optional<Violation> what_is_wrong_with(const Scene& scene, std::size_t n,
   const char* name = name_of(distribution->shape);
   const std::string key = fmt::format("{}.{}", quantity.name, wrong->name);
   if (wrong->value) {
-    return Violation{
-        .key = key_of(key),
-        .value = fmt::to_string(*wrong->value),
-        .reason = fmt::format("expected {} of a {} distribution", wrong->expected, name)};
+    return Violation{.key = key_of(key),
+                     .value = fmt::to_string(*wrong->value),
+                     .reason = fmt::format("expected {} ({} distribution)", wrong->expected, name)};
   }
   return Violation{.key = key_of(shape),
                    .value = in_quotes(name),
@@ -162,7 +161,11 @@ void add_sizes(SceneSection& species) {
   species.rules.insert(species.rules.begin(), {Aspect::bodies, distribution_is_wrong});
   species.rules.push_back({Aspect::bodies, drawn_body_is_impossible});
   constexpr const char* one_of_both = "expected either a number or how numbers are drawn, not both";
-  constexpr const char* one_way = "expected one way in which they follow, not two";
+  constexpr const char* one_of_masses =
+      "expected either mass.density or mass.distribution, not both";
+  constexpr const char* one_of_diameters =
+      "expected either diameter.aspect or diameter.distribution, not both";
+  constexpr const char* k_or_inertia = "expected either k or inertia, not both";
   const auto exclude = [&](std::string_view one, std::string_view other, const char* expected) {
     species.exclusions.push_back({one, other, expected, Replaces::each_the_other});
   };
@@ -171,11 +174,11 @@ void add_sizes(SceneSection& species) {
   exclude("species.mass", "species.mass.", one_of_both);
   exclude("species.k", "species.k.", one_of_both);
   exclude("species.inertia", "species.inertia.", one_of_both);
-  exclude("species.mass.density", "species.mass.distribution", one_way);
-  exclude("species.diameter.aspect", "species.diameter.distribution", one_way);
-  exclude("species.k.distribution", "species.inertia", one_way);
-  exclude("species.k.distribution", "species.inertia.", one_way);
-  exclude("species.k", "species.inertia.", one_way);
+  exclude("species.mass.density", "species.mass.distribution", one_of_masses);
+  exclude("species.diameter.aspect", "species.diameter.distribution", one_of_diameters);
+  exclude("species.k.distribution", "species.inertia", k_or_inertia);
+  exclude("species.k.distribution", "species.inertia.", k_or_inertia);
+  exclude("species.k", "species.inertia.", k_or_inertia);
 }
 
 }  // namespace needlework

@@ -150,6 +150,21 @@ std::optional<Violation> pair_that_never_meets_collides(const Scene& scene) {
   return {};
 }
 
+std::optional<Violation> pair_is_fixed(const Scene& scene) {
+  const auto is_fixed = [&](const std::string& name) {
+    const auto found = std::ranges::find(scene.species, name, &Species::name);
+    return found != scene.species.end() && found->fixed;
+  };
+  for (std::size_t n = 0; n < scene.pairs.size(); ++n) {
+    const Scene::Pair& pair = scene.pairs[n];
+    if (!pair.meet || !is_fixed(pair.between[0]) || !is_fixed(pair.between[1])) continue;
+    return Violation{.key = key_of_entry("pairs.between", n),
+                     .value = quoted_pair(pair),
+                     .reason = "expected a species that moves: fixed bodies never meet"};
+  }
+  return {};
+}
+
 std::optional<Violation> species_do_not_add_up(const Scene& scene) {
   if (scene.composition().count() == scene.needles.count) return {};
   return Violation{.key = "species", .value = {}, .reason = "expected the count of [needles]"};
@@ -251,7 +266,8 @@ SceneSection pairs_section() {
           },
       .rules = {{Aspect::species, pair_occurs_twice},
                 {Aspect::pairs, pair_is_of_no_species},
-                {Aspect::effects, pair_that_never_meets_collides}},
+                {Aspect::effects, pair_that_never_meets_collides},
+                {Aspect::effects, pair_is_fixed}},
       .entries = entries_in<&Scene::pairs>(most_species * (most_species + 1) / 2),
   };
 }
