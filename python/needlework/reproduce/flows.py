@@ -77,6 +77,7 @@ def draw_pistons(table: Table) -> Figure:
                      color=style.COLOURS[number])
     panel.axhline(0, color=style.COLOURS[5], linewidth=0.8)
     panel.set_yscale("symlog", linthresh=0.01)
+    panel.set_ylim(-0.005, 8)
     style.label(panel, r"velocity of the piston / $(T/m)^{1/2}$", "$E$ / slow piston $- 1$",
                 log="x")
     return figure
