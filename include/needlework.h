@@ -106,7 +106,8 @@ typedef struct needlework_initial {
   const uint32_t* id;                         /* distinct; NULL: 0 to count - 1 */
   needlework_const_vectors peculiar_velocity; /* in place of velocity, which must be absent:
                                                  beside the flow of [shear] */
-  double slide; /* of the row of boxes above in [shear], where the scene gives no offset */
+  double slide;  /* of the row of boxes above in [shear], where the scene gives no offset */
+  double low[3]; /* where the low edges are; the run that begins moves them to 0 */
 } needlework_initial;
 
 /* Makes a simulation of a scene in TOML, as docs/scenes.md describes it; [until] may be missing.
@@ -287,11 +288,12 @@ typedef struct needlework_state {
   uint32_t* id;                         /* [N] */
   needlework_vectors peculiar_velocity; /* beside the flow of [shear] */
   double* slide;                        /* of the row of boxes above */
+  double* low;                          /* [3], where the low edges are: walls may move them */
 } needlework_state;
 
 /* The number of needles; 0 for NULL. [any] */
 NEEDLEWORK_API size_t needlework_count(const needlework_simulation* simulation);
-/* The edges of the box. [handle] */
+/* The edges of the box at the present time, as walls with a velocity move them. [handle] */
 NEEDLEWORK_API int needlework_get_box(const needlework_simulation* simulation, double box[3]);
 /* Copies the state into the caller's arrays of needlework_count() rows, which must not overlap.
  * [handle] */

@@ -33,7 +33,7 @@ module needlework
     type(needlework_vectors) :: position, velocity, orientation, angular_velocity
     type(c_ptr) :: id = c_null_ptr
     type(needlework_vectors) :: peculiar_velocity
-    real(c_double) :: slide = 0
+    real(c_double) :: slide = 0, low(3) = 0
   end type
 
   type, bind(c) :: needlework_bodies
@@ -45,7 +45,7 @@ module needlework
     type(needlework_vectors) :: position, velocity, orientation, angular_velocity
     type(c_ptr) :: image = c_null_ptr, id = c_null_ptr
     type(needlework_vectors) :: peculiar_velocity
-    type(c_ptr) :: slide = c_null_ptr
+    type(c_ptr) :: slide = c_null_ptr, low = c_null_ptr
   end type
 
   type, bind(c) :: needlework_limits

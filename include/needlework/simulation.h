@@ -145,6 +145,11 @@ class Simulation {
   std::vector<std::uint64_t> collisions_by_pair() const;
   const Counters& counters() const;
 
+  /// The distances of the edges of the box, which walls with a velocity move. [L]
+  std::array<double, 3> box() const;
+  /// Where the low edges are: 0, but where such a wall has moved one. [L]
+  std::array<double, 3> low() const;
+
   std::size_t needles() const;       ///< number of needles
   std::uint64_t collisions() const;  ///< of all needles since the start of the run
   double time() const;               ///< since the start of the run

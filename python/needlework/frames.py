@@ -75,6 +75,11 @@ class Frame(NotPickled):
         """Edges of the box, [3] [L]."""
         return self._needles.box(self._index)
 
+    @cached_property
+    def low(self) -> np.ndarray:
+        """Where the low edges are: 0, but where a wall with a velocity has moved one, [3] [L]."""
+        return self._needles.low(self._index)
+
     @property
     def periodic(self) -> np.ndarray:
         """Along which axes the box is periodic, [3]; along the others there are walls."""
@@ -123,10 +128,12 @@ class Frame(NotPickled):
     def state(self) -> State:
         """All needles: the arrays position, velocity, orientation, angular_velocity, image, id and
         species by name, those of length, diameter, mass and inertia where bodies of a species
-        differ, and bodies. ``Simulation(scene, **state)`` starts from it."""
+        differ, box and low where walls with a velocity move edges, and bodies.
+        ``Simulation(scene, **state)`` starts from it."""
         flow = (self._slide[0], self._needles.shear_rate)
         return State.of((getattr(self, name) for name in ARRAYS), self._needles.bodies,
-                        flow if flow != (0, 0) else None, self._needles.own)
+                        flow if flow != (0, 0) else None, self._needles.own,
+                        (self.box, self.low) if "box/low" in self._needles else None)
 
     @property
     def _slide(self) -> tuple[float, int]:
@@ -349,7 +356,7 @@ class Needles:
 
     def __init__(self, path: str, group: h5py.Group) -> None:
         self._elements = {name: Element(path, group, name) for name in VECTORS}
-        for name in ("image", "id", "species", "box/edges"):
+        for name in ("image", "id", "species", "box/edges", "box/low"):
             if _get(group, name) is not None:
                 self._elements[name] = Element(path, group, name)
         if "box/edges" not in self:
@@ -382,6 +389,15 @@ class Needles:
         edges, values = self._elements["box/edges"], self._vectors_of_box(frame).diagonal().copy()
         if not np.all((values > 0) & (values < math.inf)):
             edges.reject(f"{values.tolist()}: expected edges above 0")
+        return values
+
+    def low(self, frame: int) -> np.ndarray:
+        """Where the low edges are in a frame, which files of Needlework say where walls move them."""
+        if "box/low" not in self:
+            return np.zeros(3)
+        values = self.row("box/low", 1, frame, np.float64)
+        if not np.all(np.isfinite(values)):
+            self._elements["box/low"].reject(f"{values.tolist()}: expected finite numbers")
         return values
 
     def tilt(self, frame: int) -> float:
@@ -447,6 +463,9 @@ class Needles:
                 good = len(shape) in (1, 2, 3) and shape[-1] == 3
                 good = good and (len(shape) < 3 or shape[1] == 3)
                 expected = "[3], [3][3], [frames][3] or [frames][3][3]"
+            elif name == "box/low":
+                good = len(shape) in (1, 2) and shape[-1] == 3
+                expected = "[3] or [frames][3]"
             elif name in ("id", "species"):
                 good = len(shape) in (1, 2) and shape[-1] == count
                 expected = f"[{count}] or [frames][{count}]"

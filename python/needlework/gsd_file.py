@@ -84,6 +84,8 @@ class GsdFrame(Values):
     """All needles, from which ``Simulation(scene, **frame.state)`` starts."""
     box: np.ndarray
     """Edges of the box, [3] [L]."""
+    low: np.ndarray
+    """Where the low edges are, [3] [L]."""
     periodic: np.ndarray
     """Along which axes the box is periodic, [3]."""
     time: float
@@ -140,9 +142,12 @@ def from_gsd(path: str, frame: int = -1) -> GsdFrame:
               counted(particles.image, slid), np.arange(particles.N, dtype=np.uint32),
               particles.typeid.astype(np.uint8))
     bodies, own = _bodies_of(snapshot)
+    low = np.asarray(log.get("low", np.zeros(3)), dtype=float)
     return GsdFrame({
-        "state": State.of(arrays, bodies, (slide, rate) if (slide, rate) != (0, 0) else None, own),
+        "state": State.of(arrays, bodies, (slide, rate) if (slide, rate) != (0, 0) else None, own,
+                          (box, low) if "low" in log else None),
         "box": box,
+        "low": low,
         "periodic": np.asarray(log.get("periodic", np.ones(3))).astype(bool),
         "time": float(log["time"][0]) if "time" in log else float("nan"),
         "step": int(snapshot.configuration.step)})
@@ -280,6 +285,8 @@ def _snapshot(frame: Any, gas: Any, names: list[str]) -> Any:
                     "mass": masses.astype(float), "k": shapes.astype(float),
                     "periodic": frame.periodic.astype(np.uint8),
                     "edges": np.asarray(frame.box, dtype=float), "centre": centre}
+    if "low" in state:
+        snapshot.log["low"] = np.asarray(frame.low, dtype=float)
     snapshot.log |= {f"particles/{name}": np.asarray(state[name]) for name in own}
     snapshot.log |= {name: np.array([number]) for name, number in (flow or {}).items()}
     return snapshot
@@ -305,7 +312,8 @@ def _mode(mode: str) -> str:
 
 def _bounds(frame: Any, reach: float) -> tuple[np.ndarray, np.ndarray]:
     """Of the box and, along axes with walls, of centres beyond it and so much more."""
-    low, high = np.zeros(3), np.array(frame.box, dtype=float)
+    low = np.array(frame.low, dtype=float)
+    high = low + frame.box
     if len(frame.position) > 0:
         least, most = np.min(frame.position, axis=0), np.max(frame.position, axis=0)
         low = np.where(~frame.periodic & (least < low), least - reach, low)

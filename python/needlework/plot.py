@@ -86,8 +86,9 @@ def needles(state: Any, axes: Axes | None = None, *, length: float | None = None
     lines = Line3DCollection(np.stack([centre - half, centre + half], axis=1), cmap="plasma",
                              array=speed, linewidths=1)
     axes.add_collection3d(lines)
-    for set_limits, edge in zip((axes.set_xlim, axes.set_ylim, axes.set_zlim), state.box):
-        set_limits(0, edge)
+    for set_limits, low, edge in zip((axes.set_xlim, axes.set_ylim, axes.set_zlim), state.low,
+                                     state.box):
+        set_limits(low, low + edge)
     axes.set_box_aspect(state.box)
     axes.figure.colorbar(lines, ax=axes, shrink=0.6, label="speed")
     return axes

@@ -271,6 +271,9 @@ class Simulation(NotPickled):
     flow : mapping, optional
         What a sheared state says of its box: slide, of the row of boxes above [L], and shear_rate
         [1 / time]. Velocities beside the flow are kept where the scene has another rate.
+    box, low : arrays [3], optional
+        Edges of the box, as walls with a velocity have moved them, and where the low ones are, 0 if
+        not given [L]; the simulation moves those to 0. needles.box, where given, must agree.
     image : array [N, 3] of whole numbers, optional
         Boxes crossed by these needles before, from which their images go on; 0 if not given.
     id : array [N] of whole numbers, optional
@@ -308,7 +311,8 @@ class Simulation(NotPickled):
                  peculiar_velocity: ArrayLike | None = None,
                  flow: Mapping[str, float] | None = None, length: ArrayLike | None = None,
                  diameter: ArrayLike | None = None, mass: ArrayLike | None = None,
-                 inertia: ArrayLike | None = None) -> None:
+                 inertia: ArrayLike | None = None, box: ArrayLike | None = None,
+                 low: ArrayLike | None = None) -> None:
         text, name, has_lines = scene_text(scene)
         if velocity is not None and peculiar_velocity is not None:
             raise InputError("velocity and peculiar_velocity: expected one of them")
@@ -318,7 +322,7 @@ class Simulation(NotPickled):
                         "orientation": orientation, "angular_velocity": angular_velocity},
                        image, id, species, bodies, (length, diameter, mass, inertia))
         if state is not None:
-            state = (*state, beside_flow, *_flow(flow or {}))
+            state = (*state, beside_flow, *_flow(flow or {}), _three("box", box), _three("low", low))
         self._run = _core.Run(text, os.fsencode(name), has_lines, state, bool(force))
         for message in self._run.warnings():
             warnings.warn(message, SceneWarning, stacklevel=2)
@@ -524,7 +528,8 @@ class Simulation(NotPickled):
         if self._copy is None:
             *arrays, own = self._run.state()
             self._copy = State.of(arrays, Bodies.of(self._facts.bodies), self._run.flow(),
-                                  own and dict(zip(OWN_NUMBERS, own)))
+                                  own and dict(zip(OWN_NUMBERS, own)),
+                                  self._run.box() if self._facts.moving_walls else None)
         return self._copy
 
     @property
@@ -657,16 +662,21 @@ class Simulation(NotPickled):
         """By kinetic theory, from the temperatures of the present window [time]."""
         return self._run.mean_free_time()
 
+    @property
+    def box(self) -> np.ndarray:
+        """Edges of the box now, which walls with a velocity move, [3] [L]."""
+        return self._run.box()[0] if self._facts.moving_walls else self._facts.box
+
+    @property
+    def low(self) -> np.ndarray:
+        """Where its low edges are now: 0, but where such a wall has moved one, [3] [L]."""
+        return self._run.box()[1] if self._facts.moving_walls else np.zeros(3)
+
     # What does not change
 
     def __len__(self) -> int:
         """Number of needles."""
         return self._facts.count
-
-    @property
-    def box(self) -> np.ndarray:
-        """Edges of the box, [3] [L]."""
-        return self._facts.box
 
     @property
     def periodic(self) -> np.ndarray:
@@ -685,7 +695,7 @@ class Simulation(NotPickled):
         first set_velocities(), or inf."""
         names = [name for name in ("count", "box", "species", "counts", "k", "epsilon", "beta",
                                    "meet", "length", "mass", "diameter", "differ") if name in self._facts]
-        return Values({**{name: self._facts[name] for name in names},
+        return Values({**{name: self._facts[name] for name in names}, "box": self.box,
                        "undisturbed_until": self._undisturbed_until})
 
     @property
@@ -785,6 +795,11 @@ def _state(arrays: dict[str, ArrayLike | None], image: ArrayLike | None, ids: Ar
             _columns_of(bodies or {}),
             tuple(None if values is None else column(name, values, count)
                   for name, values in zip(OWN_NUMBERS, own)))
+
+
+def _three(name: str, values: ArrayLike | None) -> list[float]:
+    """A vector, or 0."""
+    return [0.0] * 3 if values is None else column(name, values, 3).tolist()
 
 
 def _flow(flow: Mapping[str, float]) -> tuple[float, float]:

@@ -57,6 +57,11 @@ class State(Table):
     bodies: Bodies
     """What the species are made of, which another scene must not contradict; means where their
     bodies differ."""
+    # Where walls with a velocity move edges of the box:
+    box: np.ndarray
+    """Its edges, [3] [L]."""
+    low: np.ndarray
+    """Where its low edges are, [3] [L]; a simulation that starts moves them to 0."""
     # Where bodies of a species differ:
     length: np.ndarray
     """Lengths of the axes, [N] [L]."""
@@ -69,12 +74,16 @@ class State(Table):
 
     @classmethod
     def of(cls, arrays: Iterable[np.ndarray], bodies: Bodies, flow: Sequence[Any] | None = None,
-           own: Mapping[str, np.ndarray] | None = None) -> State:
+           own: Mapping[str, np.ndarray] | None = None,
+           edges: tuple[np.ndarray, np.ndarray] | None = None) -> State:
         """The state of these arrays, in the order of ARRAYS; `flow` under uniform shear: slide, rate;
-        `own` where bodies of a species differ: arrays of OWN_NUMBERS."""
+        `own` where bodies of a species differ: arrays of OWN_NUMBERS; `edges` where walls with a
+        velocity move them: box, low."""
         values = {**dict(zip(ARRAYS, arrays)), **(own or {}), "bodies": bodies}
         if flow is not None:
             values["flow"] = {"slide": flow[0], "shear_rate": flow[1]}
+        if edges is not None:
+            values["box"], values["low"] = edges
         return cls(values)
 
     def numbers(self, name: str) -> np.ndarray:

@@ -52,6 +52,7 @@ State state_of(const needlework_initial& initial, const int32_t* image, const ui
   else
     state.velocity = rows_of(initial.velocity, count);
   state.slide = initial.slide;
+  std::copy_n(initial.low, 3, state.low.begin());
   state.orientation = rows_of(initial.orientation, count);
   state.angular_velocity = rows_of(initial.angular_velocity, count);
   if (initial.id) state.id.assign(initial.id, initial.id + count);

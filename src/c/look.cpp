@@ -31,7 +31,7 @@ size_t needlework_count(const needlework_simulation* simulation) {
 int needlework_get_box(const needlework_simulation* simulation, double box[3]) {
   return c::guarded(mutable_of(simulation), [&](needlework_simulation& self) {
     c::require(box, "box");
-    std::copy_n(self.run.scene().needles.box.begin(), 3, box);
+    std::ranges::copy(self.run.simulation().box(), box);
   });
 }
 
@@ -46,6 +46,7 @@ int needlework_get_state(needlework_simulation* simulation, const needlework_sta
     const bool flows = !state.peculiar_velocity.empty();
     c::copy_rows(flows ? state.peculiar_velocity : state.velocity, into->peculiar_velocity);
     if (into->slide) *into->slide = state.slide;
+    if (into->low) std::ranges::copy(state.low, into->low);
     if (into->id) std::copy(state.id.begin(), state.id.end(), into->id);
     if (!into->image) return;
     for (std::size_t n = 0; n < state.size(); ++n) {

@@ -508,6 +508,16 @@ double Simulation::t_tr_integral() const {
                                      translational_temperature(run.gas, sums));
 }
 
+std::array<double, 3> Simulation::box() const {
+  const Access self = access();
+  return self->run.gas.edges_at(self->run.now);
+}
+
+std::array<double, 3> Simulation::low() const {
+  const Access self = access();
+  return self->run.gas.low_at(self->run.now);
+}
+
 std::vector<WallTotals> Simulation::wall_totals() const {
   const Access self = access();
   const Run& run = self->run;

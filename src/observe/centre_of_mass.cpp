@@ -1,6 +1,6 @@
-// The centre of mass along the axes with walls: sum of m r / sum of m, r from the low edge of the
-// box, and its velocity, of the needles that move; in mixtures of each species, too. Along periodic
-// axes there is none.
+// The centre of mass along the axes with walls: sum of m r / sum of m, r from where the low edge of
+// the box is at the start, and its velocity, of the needles that move; in mixtures of each species,
+// too. Along periodic axes there is none.
 #include "src/observe/registry.h"
 
 namespace needlework::observe {
@@ -16,7 +16,8 @@ class CentreOfMass : public Observable {
     for (const Slabs& slabs : gas_.wall_slabs) axes.push_back(static_cast<double>(slabs.axis));
     std::vector<SeriesField> out{
         {"position",
-         "Centre of mass of all needles along each axis with walls, from the low edge of the box",
+         "Centre of mass of all needles along each axis with walls, from where the low edge of the "
+         "box is at the start",
          unit::length, each},
         {"velocity", "Its velocity along each axis with walls", unit::speed, each},
         {"axis", "Number of each axis with walls: 0 x, 1 y, 2 z", unit::none, each,

@@ -24,8 +24,12 @@ class Distributions : public Observable {
       : gas_(gas),
         occupations_(static_cast<std::size_t>(
             std::ceil(10 * std::max(2.0, static_cast<double>(gas.all) /
-                                             static_cast<double>(gas.grid().size()))) +
+                                             static_cast<double>(cells_in(gas)))) +
             1)) {}
+
+  static std::size_t cells_in(const GasSetting& gas) {
+    return Grid(gas.box.edges(), gas.cells).size();
+  }
 
   std::vector<SeriesField> fields() const override {
     using enum SeriesField::Kind;

@@ -1,6 +1,8 @@
 // Pressure on a wall of area A between two samples at t1 and t2, over all hits between them:
 //
 //   sum of J . n / (A (t2 - t1))
+//
+// A is the mean between them where walls with a velocity change it.
 #include "src/observe/effect_sums.h"
 
 #include <algorithm>
@@ -10,13 +12,15 @@
 #include <string_view>
 
 #include "src/observe/described_fields.h"
+#include "src/observe/mean_of_edges.h"
 #include "src/scene/confinement.h"
 
 namespace needlework::observe {
 namespace {
 
 class WallSums : public Observable {
-  // Areas and energies are in the budget, and pressures are those between two samples.
+  // Energies are in the budget, and pressures are those between two samples. Areas follow from the
+  // box.
   struct Taken {
     bool shakes = false, travels = false, drags = false;
 
@@ -30,7 +34,7 @@ class WallSums : public Observable {
   };
 
  public:
-  explicit WallSums(const Scene& scene) {
+  explicit WallSums(const Scene& scene) : moving_edges_(moving_edges_of(scene, scene.needles.box)) {
     for (const Scene::WallSide& wall : scene.wall_sides()) {
       axes_.push_back(static_cast<double>(wall.axis));
       high_.push_back(wall.is_high);
@@ -65,7 +69,7 @@ class WallSums : public Observable {
     const double time = now.totals.time - before_;
     for (std::size_t n = 0; n < walls.size(); ++n) {
       const double impulse = walls[n].normal_impulse - impulse_before_[n];
-      row.put(time > 0 ? impulse / (walls[n].area * time)
+      row.put(time > 0 ? impulse / (mean_area(walls[n], now.totals.time) * time)
                        : std::numeric_limits<double>::quiet_NaN());
       impulse_before_[n] = walls[n].normal_impulse;
     }
@@ -82,7 +86,16 @@ class WallSums : public Observable {
   }
 
  private:
+  double mean_area(const WallTotals& wall, double until) const {
+    const auto axis = static_cast<std::size_t>(wall.axis);
+    const auto area = [&](const Vector& edges) {
+      return edges[(axis + 1) % 3] * edges[(axis + 2) % 3];
+    };
+    return moving_edges_ ? mean_of_edges(*moving_edges_, before_, until, area) : wall.area;
+  }
+
   std::vector<double> axes_, high_;
+  std::optional<MovingEdges> moving_edges_;
   Taken taken_;
   double before_ = 0;  ///< time of the sample before
   std::vector<double> impulse_before_;
@@ -99,10 +112,7 @@ class BudgetOfEnergy : public Observable {
   }
 
   std::vector<SeriesField> fields() const override {
-    auto out = fields_of(there_, {}, EveryNumber{}, "walls");
-    for (SeriesField& field : out)
-      field.meaning += ", per needle, since the start of the run; negative: taken out";
-    return out;
+    return fields_of(there_, {}, EveryNumber{}, "walls");
   }
 
   void sample(const Snapshot& now, Row& row) override { put_numbers(row, now.species.energy); }

@@ -1,4 +1,5 @@
-// Fields on the grid of output.grid. In a cell of volume V_c with n needles:
+// Fields on the grid of output.grid, which fills the box of the instant. In a cell of volume V_c
+// with n needles:
 //
 //   density      n / V_c
 //   flow         U = mean of v, by mass
@@ -37,7 +38,7 @@ class Fields : public Observable {
 
   void sample(const Snapshot& now, Row& row) override {
     const CellMeans& cells = now.cells();
-    const double volume = gas_.grid().cell_volume();
+    const double volume = now.grid().cell_volume();
     for (const double count : cells.count) row.put(count / volume);
     for (const Vector& flow : cells.flow) row.put_all(flow);
     for (const Vector& spin : cells.spin) row.put_all(spin);

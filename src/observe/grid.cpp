@@ -7,7 +7,8 @@ namespace needlework::observe {
 
 bool Grid::holds(const Vector& position) const {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (!(position[axis] >= 0 && position[axis] <= box_[axis])) return false;
+    const double along = position[axis] - low_[axis];
+    if (!(along >= 0 && along <= box_[axis])) return false;
   }
   return true;
 }
@@ -15,7 +16,7 @@ bool Grid::holds(const Vector& position) const {
 std::size_t Grid::cell_of(const Vector& position) const {
   std::size_t cell = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double along = position[axis] / box_[axis] * cells_[axis];
+    const double along = (position[axis] - low_[axis]) / box_[axis] * cells_[axis];
     const int n = static_cast<int>(std::clamp<double>(along, 0, cells_[axis] - 1));
     cell = cell * static_cast<std::size_t>(cells_[axis]) + static_cast<std::size_t>(n);
   }

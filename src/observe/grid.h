@@ -10,10 +10,12 @@
 
 namespace needlework::observe {
 
-/// Equal cells that fill the box. The last axis runs fastest, as in the rows of a file.
+/// Equal cells that fill the box, which begins at 0 or where its low edges are. The last axis runs
+/// fastest, as in the rows of a file.
 class Grid {
  public:
-  Grid(const Vector& box, const std::array<int, 3>& cells) : box_(box), cells_(cells) {}
+  Grid(const Vector& box, const std::array<int, 3>& cells, const Vector& low = {})
+      : box_(box), low_(low), cells_(cells) {}
 
   std::size_t size() const {
     return static_cast<std::size_t>(cells_[0]) * static_cast<std::size_t>(cells_[1]) *
@@ -27,7 +29,7 @@ class Grid {
   double cell_volume() const { return box_[0] * box_[1] * box_[2] / static_cast<double>(size()); }
 
  private:
-  Vector box_;
+  Vector box_, low_;
   std::array<int, 3> cells_;
 };
 

@@ -8,8 +8,8 @@
 
 namespace needlework::observe {
 
-IdealPairs::IdealPairs(const GasSetting& gas)
-    : composition_(gas.composition), box_(gas.box.edges()) {
+IdealPairs::IdealPairs(const GasSetting& gas, const Vector& edges)
+    : composition_(gas.composition), box_(edges) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     (gas.box.is_periodic(axis) ? periodic_ : walled_).push_back(axis);
   }

@@ -17,7 +17,9 @@ namespace needlework::observe {
 /// counts as if the open side had one.
 class IdealPairs {
  public:
-  explicit IdealPairs(const GasSetting& gas);
+  explicit IdealPairs(const GasSetting& gas) : IdealPairs(gas, gas.box.edges()) {}
+  /// In a box with other edges, as walls have moved them.
+  IdealPairs(const GasSetting& gas, const Vector& edges);
 
   /// Up to where distances are known [L]: half the shortest periodic edge, or without one the
   /// largest distance in the box.

@@ -18,6 +18,7 @@
 #include "needlework/totals.h"
 #include "src/archive/archive.h"
 #include "src/box/box.h"
+#include "src/box/moving_edge.h"
 #include "src/composition/sizes.h"
 #include "src/observe/grid.h"
 #include "src/observe/vector.h"
@@ -66,9 +67,9 @@ class SpeciesById {
 /// What is known of a gas before it is sampled. An observable of single needles is made for each
 /// species, with a setting that tells of its needles alone.
 struct GasSetting {
-  std::size_t count = 0;  ///< of the needles that the observable is given
-  std::size_t all = 0;    ///< of all species
-  Box box;
+  std::size_t count = 0;    ///< of the needles that the observable is given
+  std::size_t all = 0;      ///< of all species
+  Box box;                  ///< at the start, if walls move edges
   double length = 1;        ///< the longest extent [L]
   double mass = 1;          ///< of one species the mean, of several none
   double inertia = 1;       ///< I = m L^2 / (2 k)
@@ -79,8 +80,13 @@ struct GasSetting {
   Composition composition;
   SpeciesById species_by_id;
 
+  /// The edges of the box as walls with a velocity move them, where there are some.
+  std::optional<MovingEdges> moving_edges;
+
   double volume() const { return box.volume(); }
-  Grid grid() const { return {box.edges(), cells}; }
+  double volume_at(double time) const;
+  /// The mean between two times since the start of the scene.
+  double mean_volume(double from, double until) const;
   GasSetting of_species(std::size_t index) const;
 };
 
@@ -121,11 +127,17 @@ class Snapshot {
   std::size_t species_of(std::size_t i) const {
     return gas.composition.is_mixture() ? state.species[i] : 0;
   }
+  /// The edges of the box and where the low ones are, by the state where walls move them. [L]
+  const Vector& edges() const { return gas.moving_edges ? state.box : gas.box.edges(); }
+  const Vector& low() const { return state.low; }
+  double volume() const { return edges()[0] * edges()[1] * edges()[2]; }
+  Grid grid() const { return {edges(), gas.cells, low()}; }
+
   /// Computed once for all observables.
   const Weights& weights() const;
   /// The means in the cells of the grid, computed once for all observables.
   const CellMeans& cells() const {
-    if (!cells_) cells_ = means_in_cells(gas.grid(), state, weights());
+    if (!cells_) cells_ = means_in_cells(grid(), state, weights());
     return *cells_;
   }
 

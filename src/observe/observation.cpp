@@ -7,6 +7,7 @@
 
 #include "src/observe/by_size.h"
 #include "src/observe/effect_sums.h"
+#include "src/observe/mean_of_edges.h"
 #include "src/observe/rod_sums.h"
 #include "src/scene/box_of.h"
 #include "src/scene/confinement.h"
@@ -18,6 +19,7 @@ GasSetting setting_of(const Scene& scene) {
   GasSetting gas;
   gas.count = gas.all = scene.needles.count;
   gas.box = box_of(scene);
+  gas.moving_edges = moving_edges_of(scene, gas.box.edges());
   gas.is_sheared = scene.shear.has_value();
   gas.shear_rate = scene.shear ? scene.shear->rate : 0;
   gas.cells = scene.output.grid.value_or(default_cells(gas.box.edges(), gas.count));
@@ -30,6 +32,16 @@ GasSetting setting_of(const Scene& scene) {
   gas.length = gas.composition.longest();
   gas.mass = gas.inertia = std::numeric_limits<double>::quiet_NaN();
   return gas;
+}
+
+static double product(const Vector& edges) { return edges[0] * edges[1] * edges[2]; }
+
+double GasSetting::volume_at(double time) const {
+  return moving_edges ? product(moving_edges->distances(time)) : volume();
+}
+
+double GasSetting::mean_volume(double from, double until) const {
+  return moving_edges ? mean_of_edges(*moving_edges, from, until, product) : volume();
 }
 
 GasSetting GasSetting::of_species(std::size_t index) const {
@@ -77,10 +89,11 @@ Observation::Observation(const Scene& scene, ObservablePointer cooling, SpeciesB
     members_.push_back({"walls", "Hits of needles on walls", make_wall_sums(scene)});
   }
   if (acts_on_single_needles(scene)) {
-    members_.push_back({"energy_budget",
-                        "What each effect has put into the energy per needle, whose change is the "
-                        "sum of them all",
-                        make_energy_budget(scene)});
+    members_.push_back(
+        {"energy_budget",
+         "What each effect has put into the energy per needle since the start of the "
+         "run, whose change is the sum of them all; negative: taken out",
+         make_energy_budget(scene)});
   }
   if (gas_.composition.has_width()) {
     members_.push_back(

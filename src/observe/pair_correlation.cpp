@@ -10,7 +10,8 @@
 // With several species, of the pairs of each two of them: N_a N_b pairs of needles of a and b.
 //
 // r goes up to 3 lengths of the longest needles, or to half the shortest periodic edge of the box
-// if that is less. Pairs come from a list of cells at least that wide, in an order that follows
+// if that is less, at the start where walls move edges; the ideal gas is in the box of the instant.
+// Pairs come from a list of cells at least that wide, in an order that follows
 // from the state alone.
 #include <algorithm>
 #include <array>
@@ -37,12 +38,7 @@ class PairCorrelation : public Observable {
     const IdealPairs ideal(gas);
     reach_ = std::min(3 * gas.length, ideal.reach());
     for (std::size_t n = 0; n <= bins; ++n) borders_.push_back(reach_ * double(n) / bins);
-    for (std::size_t a = 0; a < gas.composition.size(); ++a) {
-      for (std::size_t b = a; b < gas.composition.size(); ++b) {
-        const std::vector<double> shares = ideal.shares(a, b, borders_);
-        ideal_.insert(ideal_.end(), shares.begin(), shares.end());
-      }
-    }
+    take_ideal(ideal, gas.box.edges());
   }
 
   std::vector<SeriesField> fields() const override {
@@ -64,6 +60,7 @@ class PairCorrelation : public Observable {
     const Composition& composition = gas_.composition;
     pairs_.assign(composition.pairs() * bins, 0.0);
     p2_.assign(composition.pairs() * bins, 0.0);
+    if (now.edges() != edges_) take_ideal(IdealPairs(gas_, now.edges()), now.edges());
     visit_near_pairs(now.state);
     for (std::size_t a = 0; a < composition.size(); ++a) {
       for (std::size_t b = a; b < composition.size(); ++b) {
@@ -76,6 +73,17 @@ class PairCorrelation : public Observable {
   }
 
  private:
+  void take_ideal(const IdealPairs& ideal, const Vector& edges) {
+    edges_ = edges;
+    ideal_.clear();
+    for (std::size_t a = 0; a < gas_.composition.size(); ++a) {
+      for (std::size_t b = a; b < gas_.composition.size(); ++b) {
+        const std::vector<double> shares = ideal.shares(a, b, borders_);
+        ideal_.insert(ideal_.end(), shares.begin(), shares.end());
+      }
+    }
+  }
+
   void put_g(std::size_t pair, double all_pairs, Row& row) const {
     for (std::size_t n = 0; n < bins; ++n) {
       const std::size_t place = pair * bins + n;
@@ -113,7 +121,7 @@ class PairCorrelation : public Observable {
       // With two cells along an axis, one would be on both sides of the other.
       if (extent[axis] < 3) extent[axis] = 1;
     }
-    const Grid grid(box.edges(), extent);
+    const Grid grid(box.edges(), extent, state.low);
     std::vector<Cell> cells(grid.size());
     for (std::size_t i = 0; i < state.size(); ++i) {
       const std::size_t species = gas_.composition.is_mixture() ? state.species[i] : 0;
@@ -156,6 +164,7 @@ class PairCorrelation : public Observable {
   GasSetting gas_;
   double reach_ = 0;
   std::vector<double> borders_;
+  Vector edges_{};                  ///< of the box that the ideal gas is in
   std::vector<double> ideal_;       ///< share of all pairs, by pair of species, then bin
   std::vector<double> pairs_, p2_;  ///< by pair of species, then bin
 };

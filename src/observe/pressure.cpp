@@ -3,6 +3,9 @@
 #include <array>
 #include <limits>
 
+#include "src/observe/mean_of_edges.h"
+#include "src/scene/confinement.h"
+
 namespace needlework::observe {
 
 PressureSums pressure_sums(double time, double t_tr_integral, double virial,
@@ -14,11 +17,13 @@ PressureSums pressure_sums(double time, double t_tr_integral, double virial,
 
 Pressure::Pressure(const Scene& scene)
     : kind_(scene.walls.empty() ? Kind::virial : Kind::walls),
-      count_(static_cast<double>(scene.composition().count() - scene.composition().fixed())) {
+      count_(static_cast<double>(scene.composition().count() - scene.composition().fixed())),
+      moving_edges_(moving_edges_of(scene, scene.needles.box)) {
   const std::array<double, 3>& box = scene.needles.box;
   volume_ = box[0] * box[1] * box[2];
   for (const Scene::WallSide& side : scene.wall_sides()) {
     area_ += volume_ / box[side.axis];
+    axes_.push_back(side.axis);
     if (scene.forces.gravity[side.axis] != 0) kind_ = Kind::none;
   }
 }
@@ -26,9 +31,19 @@ Pressure::Pressure(const Scene& scene)
 double Pressure::between(const PressureSums& from, const PressureSums& to) const {
   const double time = to.time - from.time;
   if (!(time > 0) || kind_ == Kind::none) return std::numeric_limits<double>::quiet_NaN();
-  if (kind_ == Kind::walls) return (to.normal_impulse - from.normal_impulse) / (area_ * time);
+  if (kind_ == Kind::walls)
+    return (to.normal_impulse - from.normal_impulse) / (mean_area(from.time, to.time) * time);
   const double kinetic = count_ * (to.t_tr_integral - from.t_tr_integral);
   return (kinetic + (to.virial - from.virial) / 3) / (volume_ * time);
+}
+
+double Pressure::mean_area(double from, double until) const {
+  if (!moving_edges_) return area_;
+  return mean_of_edges(*moving_edges_, from, until, [&](const Vector& edges) {
+    double area = 0;
+    for (const std::size_t axis : axes_) area += edges[(axis + 1) % 3] * edges[(axis + 2) % 3];
+    return area;
+  });
 }
 
 const char* Pressure::meaning() const {

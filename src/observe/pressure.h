@@ -1,11 +1,14 @@
 // The pressure of rods of finite width, the mean between two moments.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "needlework/scene.h"
 #include "needlework/totals.h"
+#include "src/box/moving_edge.h"
 
 namespace needlework::observe {
 
@@ -33,6 +36,7 @@ class Pressure {
   ///                  walls have another virial, and centres less room than the box
   ///
   /// With gravity along an axis with walls there is none, as it depends on the height.
+  /// Areas that walls with a velocity change are means between the two times.
   double between(const PressureSums& from, const PressureSums& to) const;
   /// Which of these it is, in words.
   const char* meaning() const;
@@ -41,7 +45,11 @@ class Pressure {
   enum class Kind : std::uint8_t { virial, walls, none };
 
   Kind kind_;
+  double mean_area(double from, double until) const;
+
   double count_, volume_, area_ = 0;
+  std::optional<MovingEdges> moving_edges_;
+  std::vector<std::size_t> axes_;  ///< of each wall
 };
 
 }  // namespace needlework::observe

@@ -3,7 +3,8 @@
 //
 //   P_ab = (sum of m c_a c_b t over flights + sum of r12_a dp_b over collisions) / (V t)
 //
-// with velocities c beside the flow, and r12 between centres. It is that of the whole box, so that
+// with velocities c beside the flow, and r12 between centres; V is the mean where walls with a
+// velocity change it. It is that of the whole box, so that
 // along axes with walls, whose force it does not know, it has no value.
 #include <array>
 #include <cmath>
@@ -21,20 +22,17 @@ class PressureTensor : public Observable {
 
  public:
   explicit PressureTensor(const GasSetting& gas)
-      : volume_(gas.volume()), periodic_(gas.box.periodic()), rate_(gas.shear_rate) {}
+      : gas_(gas), periodic_(gas.box.periodic()), rate_(gas.shear_rate) {}
 
   std::vector<SeriesField> fields() const override {
-    auto out = fields_of(StressTotals{}, {}, is_taken);
-    for (SeriesField& field : out) {
-      field.meaning += ", mean since the sample before";
-    }
-    return out;
+    return fields_of(StressTotals{}, {}, is_taken);
   }
 
   void sample(const Snapshot& now, Row& row) override {
     const StressSums& sums = now.species.stress;
+    const double until = now.totals.time, volume = gas_.mean_volume(time_, until);
     const std::vector<StressTotals> since{
-        StressTotals::between(before_, sums, now.totals.time - time_, volume_, periodic_, rate_)};
+        StressTotals::between(before_, sums, until - time_, volume, periodic_, rate_)};
     put_numbers(row, since, is_taken);
     before_ = sums;
     time_ = now.totals.time;
@@ -54,7 +52,7 @@ class PressureTensor : public Observable {
   }
 
  private:
-  double volume_;
+  GasSetting gas_;
   std::array<bool, 3> periodic_;
   double rate_;
   double time_ = 0;    ///< of the sample before

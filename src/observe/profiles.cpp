@@ -1,5 +1,6 @@
 // Profiles: the quantities of `fields` in slabs that cut the box across one axis, for each of the
 // three axes. All axes have as many slabs as the grid has cells along the axis where it has most.
+// Where walls with a velocity move edges, slabs fill the box of the instant.
 #include <algorithm>
 
 #include "src/observe/registry.h"
@@ -27,17 +28,19 @@ class Profiles : public Observable {
          scalar},
         {"thermal_rot", "Mean energy of rotation relative to the spin of each slab", unit::energy,
          scalar},
-        {"position", "Middle of each slab along its axis", unit::length, scalar,
-         SeriesField::Kind::constant, middles()},
+        position(scalar),
     };
   }
 
   void sample(const Snapshot& now, Row& row) override {
     std::vector<CellMeans> axes;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      axes.push_back(means_in_cells(slabs_across(axis), now.state, now.weights()));
+      std::array<int, 3> cells{1, 1, 1};
+      cells[axis] = slabs_;
+      const Grid slabs(now.edges(), cells, now.low());
+      axes.push_back(means_in_cells(slabs, now.state, now.weights()));
     }
-    const double volume = gas_.volume() / slabs_;
+    const double volume = now.volume() / slabs_;
     for (const auto& axis : axes)
       for (const double count : axis.count) row.put(count / volume);
     for (const auto& axis : axes)
@@ -48,19 +51,22 @@ class Profiles : public Observable {
       for (const double v2 : axis.flow_v2) row.put(gas_.mass * v2 / 2);
     for (const auto& axis : axes)
       for (const double w2 : axis.spin_w2) row.put(gas_.inertia * w2 / 2);
+    if (gas_.moving_edges) row.put_all(middles(now.edges(), now.low()));
   }
 
  private:
-  Grid slabs_across(std::size_t axis) const {
-    std::array<int, 3> cells{1, 1, 1};
-    cells[axis] = slabs_;
-    return {gas_.box.edges(), cells};
+  SeriesField position(const std::vector<SeriesField::Extent>& shape) const {
+    SeriesField out{"position", "Middle of each slab along its axis", unit::length, shape};
+    if (gas_.moving_edges) return out;
+    out.kind = SeriesField::Kind::constant;
+    out.values = middles(gas_.box.edges(), {});
+    return out;
   }
 
-  std::vector<double> middles() const {
+  std::vector<double> middles(const Vector& edges, const Vector& low) const {
     std::vector<double> out;
-    for (const double edge : gas_.box.edges())
-      for (int n = 0; n < slabs_; ++n) out.push_back(edge * (n + 0.5) / slabs_);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (int n = 0; n < slabs_; ++n) out.push_back(low[axis] + edges[axis] * (n + 0.5) / slabs_);
     return out;
   }
 

@@ -14,15 +14,15 @@ namespace {
 
 class RodSums : public Observable {
  public:
-  explicit RodSums(const Scene& scene, const GasSetting& gas)
-      : pressure_(scene), packing_(gas.composition.packing_fraction(gas.volume())) {}
+  explicit RodSums(const Scene& scene, const GasSetting& gas) : pressure_(scene), gas_(gas) {}
 
   std::vector<SeriesField> fields() const override {
     auto out = fields_of(RodTotals{});
     for (SeriesField& field : out) {
       if (field.name == "packing_fraction") {
+        if (gas_.moving_edges) continue;
         field.kind = SeriesField::Kind::constant;
-        field.values = {packing_};
+        field.values = {packing_at(0)};
       } else if (field.name == "pressure") {
         field.meaning =
             "Mean since the sample before: N T_tr and a third of what the virial gains in a unit "
@@ -36,9 +36,12 @@ class RodSums : public Observable {
   void sample(const Snapshot& now, Row& row) override {
     const PressureSums sums = pressure_sums(now.totals.time, now.species.t_tr_integral,
                                             now.species.virial, now.species.walls);
-    const std::vector<RodTotals> rods{
-        {.virial = sums.virial, .pressure = pressure_.between(before_, sums)}};
-    put_numbers(row, rods, [](std::string_view name) { return name != "packing_fraction"; });
+    const std::vector<RodTotals> rods{{.packing_fraction = packing_at(sums.time),
+                                       .virial = sums.virial,
+                                       .pressure = pressure_.between(before_, sums)}};
+    put_numbers(row, rods, [&](std::string_view name) {
+      return gas_.moving_edges || name != "packing_fraction";
+    });
     before_ = sums;
   }
 
@@ -52,8 +55,12 @@ class RodSums : public Observable {
   }
 
  private:
+  double packing_at(double time) const {
+    return gas_.composition.packing_fraction(gas_.volume_at(time));
+  }
+
   Pressure pressure_;
-  double packing_;
+  GasSetting gas_;
   PressureSums before_;  ///< at the sample before
 };
 

@@ -1,11 +1,11 @@
 // The structure factor S(k) = |sum over needles of exp(i k . r)|^2 / N for the wave vectors
-// k = 2 pi n / edge, n = 1 to 16, along each axis of the box. For independent positions it is
-// exponentially distributed with mean 1. An n-fold density wave along an axis is a peak of the
-// order of N there. Where rows of boxes slide by D along x, wave vectors are those of the lattice
-// of the instant: along x, of those with k_x = 2 pi n / edge that with the least part along y, k_y
-// = 2 pi (m - n D / edge) / (edge along y) for an integer m. With several species, of each two of
-// them S_ab(k) = Re(rho_a rho_b*) / sqrt(N_a N_b), rho_a the sum over the needles of a; independent
-// species have mean 0 for a and b.
+// k = 2 pi n / edge, n = 1 to 16, along each axis of the box, with the edges of the instant. For
+// independent positions it is exponentially distributed with mean 1. An n-fold density wave along
+// an axis is a peak of the order of N there. Where rows of boxes slide by D along x, wave vectors
+// are those of the lattice of the instant: along x, of those with k_x = 2 pi n / edge that with the
+// least part along y, k_y = 2 pi (m - n D / edge) / (edge along y) for an integer m. With several
+// species, of each two of them S_ab(k) = Re(rho_a rho_b*) / sqrt(N_a N_b), rho_a the sum over the
+// needles of a; independent species have mean 0 for a and b.
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -22,21 +22,15 @@ class StructureFactor : public Observable {
   explicit StructureFactor(const GasSetting& gas) : gas_(gas) {}
 
   std::vector<SeriesField> fields() const override {
-    std::vector<double> wave_numbers;
-    for (const double edge : gas_.box.edges())
-      for (std::size_t n = 1; n <= waves; ++n) {
-        wave_numbers.push_back(2 * std::numbers::pi * double(n) / edge);
-      }
     std::vector<SeriesField> out{
         {"s", "Structure factor at wave vectors along each axis", unit::none,
          by_pair(gas_.composition, {{"3", 3}, {"waves", waves}})},
-        {"k",
-         "Wave numbers along each axis",
-         unit::wave_number,
-         {{"3", 3}, {"waves", waves}},
-         SeriesField::Kind::constant,
-         wave_numbers},
+        {"k", "Wave numbers along each axis", unit::wave_number, {{"3", 3}, {"waves", waves}}},
     };
+    if (!gas_.moving_edges) {
+      out.back().kind = SeriesField::Kind::constant;
+      out.back().values = wave_numbers(gas_.box.edges());
+    }
     if (gas_.is_sheared) {
       out.push_back({"k_y",
                      "In a flow, part along y of the wave vectors along x",
@@ -59,7 +53,7 @@ class StructureFactor : public Observable {
         for (std::size_t n = 0; n < waves; ++n) sums[0][n] += std::polar(1.0, tilted.phase(n, r));
       }
       for (std::size_t axis = gas_.is_sheared ? 1 : 0; axis < 3; ++axis) {
-        const double phase = 2 * std::numbers::pi * (r[axis] / gas_.box.edge(axis));
+        const double phase = 2 * std::numbers::pi * (r[axis] / now.edges()[axis]);
         const Complex first(std::cos(phase), std::sin(phase));
         Complex wave = first;
         for (Complex& sum : sums[axis]) {
@@ -84,10 +78,19 @@ class StructureFactor : public Observable {
         }
       }
     }
+    if (gas_.moving_edges) row.put_all(wave_numbers(now.edges()));
     if (gas_.is_sheared) row.put_all(tilted.along_y);
   }
 
  private:
+  static std::vector<double> wave_numbers(const Vector& edges) {
+    std::vector<double> out;
+    for (const double edge : edges)
+      for (std::size_t n = 1; n <= waves; ++n)
+        out.push_back(2 * std::numbers::pi * double(n) / edge);
+    return out;
+  }
+
   // The wave vectors along x of a lattice whose rows have slid.
   struct Tilted {
     explicit Tilted(const Box& box) {

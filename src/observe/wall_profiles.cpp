@@ -105,7 +105,7 @@ class WallProfiles : public Observable {
       put([&](const SlabSums& slab, const Slabs&) { return factor * (slab.*sum / slab.count); });
     };
     put([&](const SlabSums& slab, const Slabs& slabs) {
-      return slab.count / (gas_.volume() / gas_.box.edge(slabs.axis) * slabs.thickness);
+      return slab.count / (now.volume() / now.edges()[slabs.axis] * slabs.thickness);
     });
     put([](const SlabSums& slab, const Slabs&) { return slab.v_normal / slab.mass; });
     put_mean(&SlabSums::v2, gas_.mass / 3);

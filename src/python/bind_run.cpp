@@ -22,8 +22,8 @@ using OptionalNumber = std::optional<double>;
 
 /// Position, velocity, orientation and angular velocity, [N][3] each; images, [N][3], ids and
 /// species, [N], which may be absent; bodies; columns of OwnBodies, which may be absent; the
-/// velocities, if they are beside the flow of the scene; and the slide of rows of boxes and the
-/// rate of the state's flow.
+/// velocities, if they are beside the flow of the scene; the slide of rows of boxes and the rate of
+/// the state's flow; and the edges of its box, all 0 where they are not known, and the low ones.
 using Images = std::optional<py::array_t<std::int32_t, py::array::c_style>>;
 using Ids = std::optional<py::array_t<std::uint32_t, py::array::c_style>>;
 using SpeciesIndices = std::optional<py::array_t<std::uint8_t, py::array::c_style>>;
@@ -31,8 +31,9 @@ using SpeciesIndices = std::optional<py::array_t<std::uint8_t, py::array::c_styl
 using Numbers = std::vector<double>;
 using BodyColumns = std::tuple<std::vector<std::string>, Numbers, Numbers, Numbers, Numbers>;
 using OwnColumns = std::array<std::optional<Column>, 4>;
-using Arrays = std::tuple<Rows, Rows, Rows, Rows, Images, Ids, SpeciesIndices, BodyColumns,
-                          OwnColumns, bool, double, double>;
+using Arrays =
+    std::tuple<Rows, Rows, Rows, Rows, Images, Ids, SpeciesIndices, BodyColumns, OwnColumns, bool,
+               double, double, std::array<double, 3>, std::array<double, 3>>;
 
 State state_of(const Arrays& arrays) {
   State state;
@@ -56,6 +57,8 @@ State state_of(const Arrays& arrays) {
   if (std::get<9>(arrays)) state.velocity.swap(state.peculiar_velocity);
   state.slide = std::get<10>(arrays);
   state.shear_rate = std::get<11>(arrays);
+  state.box = std::get<12>(arrays);
+  state.low = std::get<13>(arrays);
   return state;
 }
 
@@ -114,6 +117,7 @@ void add_run(py::module_& module) {
       .def("sliding_contacts", &Run::sliding_contacts)
       .def("stress", &Run::stress)
       .def("flow", &Run::flow)
+      .def("box", &Run::box)
       .def("counters", &Run::counters)
       .def("facts", &Run::facts)
       .def("time", &Run::time)

@@ -371,6 +371,12 @@ py::object Run::flow() {
   return py::make_tuple(state.slide, state.shear_rate, read_only(state.peculiar_velocity));
 }
 
+py::tuple Run::box() {
+  require_idle();
+  const std::array<double, 3> box = run_->simulation().box(), low = run_->simulation().low();
+  return py::make_tuple(Column(3, box.data()), Column(3, low.data()));
+}
+
 py::object Run::stress() {
   require_idle();
   const auto stress = run_->simulation().stress();
@@ -417,6 +423,7 @@ py::dict Run::facts() {
   out["file"] = text(scene.output.file);
   out["count"] = scene.needles.count;
   out["box"] = Column(3, scene.needles.box.data());
+  out["moving_walls"] = scene.has_moving_walls();
   if (composition.is_mixture()) {
     add_species(out, composition);
   } else {

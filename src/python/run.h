@@ -74,6 +74,8 @@ class Run {
   pybind11::object stress();
   /// Under uniform shear: slide, rate, and velocities beside the flow; else None.
   pybind11::object flow();
+  /// Edges of the box and where the low ones are, now.
+  pybind11::tuple box();
   pybind11::dict counters();
   /// The scene, which does not change, and the parts of the engine in use.
   pybind11::dict facts();

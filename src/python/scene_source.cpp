@@ -34,7 +34,7 @@ runs::LoadedScene load_scene(const SceneSource& source, std::optional<State> sta
   // Without an end in the scene, each call of run() has to name one.
   Scene scene = parse(source, {.state = state.has_value(), .end = true});
   if (!state) return runs::complete_scene(std::move(scene));
-  state->box = scene.needles.box;
+  if (state->box == std::array<double, 3>{}) state->box = scene.needles.box;
   if (state->box == std::array<double, 3>{}) {
     throw InputError(source.name + ": needles.box is missing: expected the edges of the box");
   }

@@ -5,7 +5,7 @@
 namespace needlework::runs {
 
 observe::RodTotals rod_totals(const Scene& scene, const Simulation& simulation) {
-  const auto& box = scene.needles.box;
+  const auto box = simulation.box();
   const double volume = box[0] * box[1] * box[2];
   const observe::Pressure pressure(scene);
   const observe::PressureSums now = observe::pressure_sums(

@@ -162,6 +162,15 @@ std::optional<std::vector<double>> numbers_in(const Json& request, const char* f
   return numbers;
 }
 
+std::optional<std::array<double, 3>> three_in(const Json& request, const char* field) {
+  const Json* value = find(request, field);
+  if (!value) return std::nullopt;
+  const auto is_number = [](const Json& each) { return each.is_number(); };
+  if (!value->is_array() || value->size() != 3 || !std::ranges::all_of(*value, is_number))
+    throw wrong(field, *value, "three numbers");
+  return value->get<std::array<double, 3>>();
+}
+
 void require_only(const Json& request, std::initializer_list<const char*> fields) {
   for (const auto& [name, value] : request.items()) {
     if (name == "do" || name == "id") continue;

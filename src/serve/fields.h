@@ -40,6 +40,9 @@ std::optional<Bodies> bodies_in(const Json& request, const char* field);
 std::optional<std::vector<double>> numbers_in(const Json& request, const char* field,
                                               std::size_t count);
 
+/// Three numbers.
+std::optional<std::array<double, 3>> three_in(const Json& request, const char* field);
+
 /// Throws RequestError for a field that is neither "do" nor "id" nor one of these.
 void require_only(const Json& request, std::initializer_list<const char*> fields);
 

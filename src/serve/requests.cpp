@@ -89,11 +89,13 @@ std::optional<State> state_in(const Json& request) {
   const bool id = read(ids_in(request, "needle_id"), state.id);
   const bool species = read(species_in(request, "species"), state.species);
   const bool bodies = read(bodies_in(request, "bodies"), state.bodies);
+  const bool box = read(three_in(request, "box"), state.box);
+  const bool low = read(three_in(request, "low"), state.low);
   const auto own = columns_of(state.own_bodies);
   const bool has_own =
       std::ranges::any_of(own, [&](const auto& column) { return request.contains(column.first); });
   if (!(position || orientation || velocity || angular_velocity || image || id || species ||
-        bodies || has_own)) {
+        bodies || box || low || has_own)) {
     return std::nullopt;
   }
   if (!position || !orientation) {
@@ -121,7 +123,7 @@ runs::LoadedScene scene_in(const Json& request) {
   const Provided provided{.state = state.has_value(), .end = true};
   Scene scene = text ? parse_scene(*text, "scene", {}, provided) : read_scene(*path, {}, provided);
   if (!state) return runs::complete_scene(std::move(scene));
-  state->box = scene.needles.box;
+  if (state->box == std::array<double, 3>{}) state->box = scene.needles.box;
   return runs::complete_scene(std::move(scene), std::move(*state));
 }
 
@@ -265,7 +267,7 @@ runs::PreparedRun& Requests::run_of(const Json& request) {
 Json Requests::create(const Json& request, const Connection&) {
   require_only(request, {"scene", "path", "force", "position", "orientation", "velocity",
                          "angular_velocity", "image", "needle_id", "species", "bodies", "length",
-                         "diameter", "mass", "inertia"});
+                         "diameter", "mass", "inertia", "box", "low"});
   const bool force = flag_in(request, "force");
   runs::LoadedScene loaded = scene_in(request);
   runs::require_writable_output(loaded.scene, force, text_in(request, "path").value_or(""),
@@ -329,9 +331,10 @@ Json Requests::state(const Json& request, const Connection&) {
     runs::write_state(run.simulation(), run.scene(), run.data(), *file, flag_in(request, "force"));
     return {{"file", *file}};
   }
-  static constexpr std::array<std::string_view, 12> arrays{
+  static constexpr std::array<std::string_view, 14> arrays{
       "position", "velocity", "orientation", "angular_velocity", "image", "needle_id",
-      "species",  "bodies",   "length",      "diameter",         "mass",  "inertia"};
+      "species",  "bodies",   "length",      "diameter",         "mass",  "inertia",
+      "box",      "low"};
   const auto wanted = names_in(request, "arrays", arrays);
   State state = run.simulation().copy();
   state.species.resize(state.size());  // of one species all are 0
@@ -353,6 +356,10 @@ Json Requests::state(const Json& request, const Connection&) {
   const OwnBodies own = wanted ? runs::bodies_of_needles(run.simulation()) : state.own_bodies;
   for (const auto& [field, column] : columns_of(own))
     if (!column->empty()) add(field, *column);
+  // Where walls do not move, the box is that of the scene.
+  const bool moves = run.scene().has_moving_walls();
+  for (const auto& [name, value] : {std::pair("box", &state.box), {"low", &state.low}})
+    if (moves ? is_wanted(name) : wanted && is_wanted(name)) answer[name] = numbers(*value);
   if (is_wanted("bodies")) answer["bodies"] = json_of(bodies_of(run.simulation().composition()));
   return answer;
 }

@@ -52,6 +52,61 @@ TEST(CWalls, CountHitsAndImpulses) {
   EXPECT_EQ(needlework_get_wall(gas, 0, nullptr), NEEDLEWORK_USAGE);
 }
 
+TEST(CWalls, MoveTheBoxThatRunsBeginFrom) {
+  const std::string scene =
+      "needles.count = 60\n"
+      "walls = [{ axis = \"z\", side = \"low\", motion = { velocity = 0.5 } },\n"
+      "         { axis = \"z\", side = \"high\", motion = { velocity = 0.25 } }]\n";
+  const CSimulation gas("needles.box = 5\n" + scene);
+  needlework_limits limits{};
+  limits.time = 2;
+  ASSERT_EQ(needlework_run_until(gas, &limits, nullptr), NEEDLEWORK_OK) << gas.message();
+  double box[3], low[3];
+  ASSERT_EQ(needlework_get_box(gas, box), NEEDLEWORK_OK);
+  EXPECT_EQ(box[1], 5);
+  EXPECT_EQ(box[2], 4.5);
+  std::vector<double> r(180), v(180), u(180), w(180);
+  needlework_state into{};
+  into.position.data = r.data();
+  into.velocity.data = v.data();
+  into.orientation.data = u.data();
+  into.angular_velocity.data = w.data();
+  into.low = low;
+  ASSERT_EQ(needlework_get_state(gas, &into), NEEDLEWORK_OK);
+  EXPECT_EQ(low[0], 0);
+  EXPECT_EQ(low[2], 1);
+
+  needlework_initial initial{};
+  initial.count = 60;
+  for (int axis = 0; axis < 3; ++axis) initial.box[axis] = box[axis], initial.low[axis] = low[axis];
+  initial.position.data = r.data();
+  initial.velocity.data = v.data();
+  initial.orientation.data = u.data();
+  initial.angular_velocity.data = w.data();
+  const CSimulation again(scene, initial);
+  ASSERT_TRUE(again) << again.error.message;
+  std::vector<double> moved(180);
+  needlework_state look{};
+  look.position.data = moved.data();
+  look.low = low;
+  ASSERT_EQ(needlework_get_state(again, &look), NEEDLEWORK_OK);
+  EXPECT_EQ(low[2], 0);
+  for (std::size_t n = 2; n < 180; n += 3) {
+    EXPECT_EQ(moved[n], r[n] - 1);
+    EXPECT_EQ(moved[n - 1], r[n - 1]);
+  }
+  limits.time = 1;
+  ASSERT_EQ(needlework_run_until(again, &limits, nullptr), NEEDLEWORK_OK) << again.message();
+  ASSERT_EQ(needlework_get_box(again, box), NEEDLEWORK_OK);
+  EXPECT_EQ(box[2], 4.25);
+  // Walls without a stop leave no more room at some time.
+  limits.time = 0;
+  limits.collisions_per_needle = 1e9;
+  int stop = -1;
+  ASSERT_EQ(needlework_run_until(again, &limits, &stop), NEEDLEWORK_OK) << again.message();
+  EXPECT_EQ(stop, NEEDLEWORK_STOP_WALLS_MEET);
+}
+
 TEST(CEnergyBudget, IsTheChangeOfTheEnergy) {
   const CSimulation gas(
       "needles = { count = 60, box = 5 }\ncollisions = { epsilon = 0.8, tc_relative = 1e-3 }\n"

@@ -30,6 +30,8 @@ light: T_tr 0.456, T_rot 0.470
 heavy: T_tr 0.678, T_rot 0.570
 light with heavy: 2008
 """,
+    "continued": "time 10, energy 1.64307\n",
+    "every_collision": "energy lost per needle: 1.2809\n",
     "sizes": """\
 shorter than 1: 239, T_tr 0.090
 longer than 1: 161, T_tr 0.067

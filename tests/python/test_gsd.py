@@ -85,6 +85,23 @@ class GsdFiles(support.InFolder):
             np.testing.assert_array_equal(log["edges"], box)
             np.testing.assert_allclose(found + log["centre"], position, atol=1e-5)
 
+    def test_pistons_leave_their_place(self):
+        walls = [{"axis": "z", "side": "low", "motion": {"velocity": 0.5}},
+                 {"axis": "z", "side": "high"}]
+        sim = needlework.Simulation({"needles": {"count": 50, "box": 5.0}, "walls": walls})
+        sim.run(time=2)
+        out = self.path("piston.gsd")
+        needlework.to_gsd(sim, out)
+        with gsd.hoomd.open(out, MODE["r"]) as file:
+            box, position = file[0].configuration.box[:3], file[0].particles.position
+        np.testing.assert_allclose(box, [5, 5, 4])
+        self.assertTrue(np.all(np.abs(position) <= box / 2))
+        frame = needlework.from_gsd(out)
+        self.assertEqual((list(frame.box), list(frame.low)), ([5, 5, 4], [0, 0, 1]))
+        np.testing.assert_allclose(frame.state.position, sim.position, atol=1e-6)
+        other = needlework.Simulation({"walls": [{"axis": "z", "side": "both"}]}, **frame.state)
+        np.testing.assert_allclose(other.position, sim.position - [0, 0, 1], atol=1e-6)
+
     def test_one_frame(self):
         out = self.path("last.gsd")
         with needlework.read(self.run) as run:

@@ -83,6 +83,62 @@ class Order(InFolder):
             self.assertGreater(found.order[slab], 0.2)
 
 
+PISTONS = {"walls": [{"axis": "z", "side": "low", "motion": {"velocity": 0.5}},
+                     {"axis": "z", "side": "high", "motion": {"velocity": -0.25, "stop_at": 4.75}}]}
+
+
+class Pistons(InFolder):
+    def start(self, **sections):
+        return Simulation({"needles": {"count": 80, "box": 5.0}, **PISTONS, **sections})
+
+    def test_the_box_is_where_they_are(self):
+        sim = self.start()
+        self.assertEqual((list(sim.box), list(sim.low)), ([5, 5, 5], [0, 0, 0]))
+        sim.run(time=2)
+        self.assertEqual((list(sim.box), list(sim.low)), ([5, 5, 3.75], [0, 0, 1]))
+        self.assertEqual(list(sim.gas.box), [5, 5, 3.75])
+        self.assertEqual([wall.place for wall in sim.wall_totals], [1, 4.75])
+        self.assertTrue(np.all((sim.position[:, 2] >= 1) & (sim.position[:, 2] <= 4.75)))
+        resting = Simulation({"needles": {"count": 9, "box": 5.0}})
+        self.assertEqual(list(resting.low), [0, 0, 0])
+        self.assertFalse({"box", "low"} & set(resting.state.keys()))
+
+    def test_a_state_starts_where_they_are(self):
+        sim = self.start()
+        sim.run(time=2)
+        closing = {"walls": [{"axis": "z", "side": "both", "motion": {"velocity": 0}}]}
+        other = Simulation(closing, **sim.state)
+        self.assertEqual((list(other.box), list(other.low)), ([5, 5, 3.75], [0, 0, 0]))
+        np.testing.assert_array_equal(other.position, sim.position - [0, 0, 1])
+        np.testing.assert_array_equal(other.velocity, sim.velocity)
+        with self.assertRaisesRegex(needlework.InputError, "needles.box"):
+            Simulation({"needles": {"box": 5.0}, **closing}, **sim.state)
+        with self.assertRaisesRegex(needlework.InputError, "low: shape"):
+            Simulation(closing, **{**sim.state, "low": [1, 2]})
+        with self.assertRaisesRegex(needlework.InputError, "box is missing"):
+            Simulation(closing, **{**sim.state, "box": None})
+
+    def test_frames_say_where_they_are(self):
+        file = self.folder / "run.h5"
+        with self.start(output={"file": str(file), "frames": [1.0]}) as sim:
+            sim.run(time=2)
+            last = sim.state
+        with needlework.read(file) as run:
+            self.assertEqual([list(frame.low) for frame in run.frames],
+                             [[0, 0, 0], [0, 0, 0.5], [0, 0, 1]])
+            self.assertEqual([frame.box[2] for frame in run.frames], [5, 4.25, 3.75])
+            state = run.frames[-1].state
+            for name in ("position", "box", "low"):
+                np.testing.assert_array_equal(state[name], last[name])
+            other = Simulation({"walls": WALLED["walls"][:1]}, **state)
+            np.testing.assert_array_equal(other.position, last.position - [0, 0, 1])
+
+    def test_walls_meet(self):
+        sim = self.start()
+        self.assertEqual(sim.run(collisions_per_needle=1e9), "walls_meet")
+        self.assertAlmostEqual(sim.box[2], 1)
+
+
 # A needle on end that bounces on a floor in motion and hits it at its highest, where it is at rest:
 # its height is known at each phase.
 AMPLITUDE = 0.005

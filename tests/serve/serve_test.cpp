@@ -78,6 +78,46 @@ TEST(Serve, GivesTheTrajectoryOfTheLibraryInPieces) {
   EXPECT_EQ(answers[3]["trajectory_hash"], hash_of_whole_run());
 }
 
+TEST(Serve, StartsFromTheBoxThatPistonsHaveLeft) {
+  const std::string walls =
+      "walls = [{ axis = \"z\", side = \"low\", motion = { velocity = 0.5 } },\n"
+      "         { axis = \"z\", side = \"high\" }]\n";
+  const Json advance{{"do", "advance"}, {"simulation", 1}, {"time", 2}};
+  auto first =
+      answers_to({{{"do", "create"}, {"scene", "needles = { count = 60, box = 5 }\n" + walls}},
+                  advance,
+                  {{"do", "state"}, {"simulation", 1}},
+                  {{"do", "state"}, {"simulation", 1}, {"arrays", {"low"}}}});
+  Json& state = first[2];
+  EXPECT_EQ(state["box"], Json({5.0, 5.0, 4.0}));
+  EXPECT_EQ(state["low"], Json({0.0, 0.0, 1.0}));
+  EXPECT_EQ(first[3]["low"], state["low"]);
+  EXPECT_FALSE(first[3].contains("box"));
+  Json again{{"do", "create"}, {"scene", "needles.count = 60\n" + walls}};
+  for (const char* name : {"position", "velocity", "orientation", "angular_velocity", "image",
+                           "needle_id", "species", "bodies", "box", "low"})
+    again[name] = state[name];
+  Json bad = again;
+  bad["low"] = {0, 0};
+  auto second = answers_to({again,
+                            {{"do", "state"}, {"simulation", 1}},
+                            bad,
+                            create_elastic(),
+                            {{"do", "state"}, {"simulation", 2}},
+                            {{"do", "state"}, {"simulation", 2}, {"arrays", {"box", "low"}}}});
+  ASSERT_EQ(second[0]["ok"], true) << second[0];
+  EXPECT_EQ(second[0]["box"], state["box"]);
+  EXPECT_EQ(second[1]["low"], Json({0.0, 0.0, 0.0}));
+  const auto before = rows_of<double>(state["position"].get<std::string>(), "a number");
+  const auto after = rows_of<double>(second[1]["position"].get<std::string>(), "a number");
+  for (std::size_t n = 2; n < before.size(); n += 3) EXPECT_EQ(after[n], before[n] - 1);
+  EXPECT_EQ(second[2]["message"], "low = [0,0]: expected three numbers");
+  // Of walls at rest, or none, only if asked for.
+  EXPECT_FALSE(second[4].contains("box"));
+  EXPECT_EQ(second[5]["box"], Json({5.0, 5.0, 5.0}));
+  EXPECT_EQ(second[5]["low"], Json({0.0, 0.0, 0.0}));
+}
+
 // Whose bodies differ, and of which some are fixed: JSON has no infinity, arrays in base64 have.
 TEST(Serve, GivesAndTakesBodiesThatDiffer) {
   const std::string drawn =
