@@ -21,6 +21,7 @@
 #include "tests/support/oracle.h"
 #include "tests/support/pair_families.h"
 #include "tests/support/pairs_csv.h"
+#include "tests/support/random.h"
 
 using namespace needlework;
 
@@ -148,6 +149,7 @@ Json report(Subject& subject, double count) {
 struct Options : FamilyOptions {
   std::vector<std::string> accuracies{"fast", "standard", "rigorous"};
   std::string errors_to;
+  double longest = 1;  // lengths are from 1 to this
   test::Digits digits = test::Digits::automatic;
 };
 
@@ -174,6 +176,14 @@ Truth truth_of(const test::NeedlePair& pair, test::Digits digits, bool checked) 
   return {full, !same};
 }
 
+// Of the pairs that are drawn with this seed: 1, and one from 1 to `longest`, in either order.
+test::Lengths lengths_of(double longest, std::uint64_t seed) {
+  if (longest == 1) return {1, 1};
+  test::Random random(seed);
+  const double other = std::exp(random.uniform(0, 1) * std::log(longest));
+  return random.coin() ? test::Lengths{1, other} : test::Lengths{other, 1};
+}
+
 // Pairs number first to first + count - 1 of the family, in parts that do not depend on how many
 // are asked for.
 std::vector<test::NeedlePair> draw(const Options& options, std::uint64_t first, std::size_t count) {
@@ -182,7 +192,9 @@ std::vector<test::NeedlePair> draw(const Options& options, std::uint64_t first, 
   for (std::size_t begin = 0; begin < count; begin += drawn_at_once) {
     const std::size_t size = std::min(drawn_at_once, count - begin);
     const std::uint64_t seed = (options.seed << 40) + (first + begin) / drawn_at_once;
-    std::ranges::move(test::draw_pairs(options.family, size, seed), out.begin() + begin);
+    std::ranges::move(
+        test::draw_pairs(options.family, size, seed, lengths_of(options.longest, seed)),
+        out.begin() + begin);
   }
   return out;
 }
@@ -193,6 +205,8 @@ int run(const Options& options) {
     return 0;
   }
   static_cast<void>(family_named(test::pair_families(), options.family));
+  if (options.longest != 1 && options.digits == test::Digits::fewest)
+    throw InputError("--fewest-digits: expected no --longest: its bounds are those of length 1");
   std::vector<Subject> subjects;
   for (const std::string& text : options.accuracies) subjects.push_back(subject_of(text));
   std::ofstream listed;
@@ -264,6 +278,8 @@ int main(int argc, char** argv) {
             "--fewest-digits", [&] { options.digits = test::Digits::fewest; },
             "let the oracle settle in double what is clear; then only 1 contact in 128, and those "
             "that are not clear, show errors of time");
+        app.add_option("--longest", options.longest,
+                       "lengths of a pair are 1 and one from 1 to this, log-uniform");
         app.add_option("--list", options.errors_to,
                        "file for the pairs that one of them gets wrong");
       },

@@ -23,10 +23,11 @@ const std::vector<Group>& groups() {
       {"why theory is off",
        {"boltzmann-relaxation", "boltzmann-cooling", "boltzmann-ratio", "encounters"}},
       {"driven", {"kicked", "vibrated", "shear"}},
-      {"between walls", {"walls", "sedimentation", "settling"}},
+      {"between walls", {"walls", "sedimentation", "settling", "piston", "channels"}},
       {"rods", {"rods", "rods-flow", "nematic"}},
       {"sliding contact", {"sliding"}},
-      {"liquid", {"liquid", "liquid-correlations"}}};
+      {"liquid", {"liquid", "liquid-correlations"}},
+      {"fixed bodies", {"obstacles"}}};
   return all;
 }
 

@@ -168,9 +168,8 @@ void require_inside(const Scene& scene, const Gas& gas) {
       throw InputError(fmt::format(
           "state: needle {}: a tip is {:.3g} beyond the wall {}-{}: expected both inside{}",
           gas.ids[i].value, beyond, "xyz"[side.axis], side.is_high ? "high" : "low",
-          gaps[side.axis].low != 0 || gaps[side.axis].high != 0
-              ? ", where walls.motion.phase puts it at the start"
-              : ""));
+          shakes(scene.walls[side.entry]) ? ", where walls.motion.phase puts it at the start"
+                                          : ""));
     }
   }
 }

@@ -38,7 +38,7 @@ class WallSums : public Observable {
       taken_.drags |= given.temperature.has_value();
       if (!given.motion) continue;
       taken_.travels |= given.motion->velocity.has_value();
-      taken_.shakes |= !given.motion->velocity && !given.motion->tangential;
+      taken_.shakes |= shakes(given);
     }
     impulse_before_.resize(axes_.size());
   }

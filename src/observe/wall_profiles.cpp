@@ -6,15 +6,14 @@
 //   t_tr, t_rot   <m v^2> / 3, <I w^2> / 2
 //   t_normal      <m (v . e)^2>
 //   velocity      <v>, by mass
-//   t_tr_beside_flow  <m (v - <v>)^2> / 3
+//   t_tr_beside_flow  sum of m (v - <v>)^2 / (3 (n - 1)), as n needles have their own mean
 //   p2            <(3 (u . e)^2 - 1) / 2>
 //   cos2          <(u . e)^2>, 1/3 for random directors; no value for spheres, which have none
 //   order_tensor  <(3 u u - 1) / 2>, whose component along e twice is p2
 //   outside       number of needles in no slab
 //
 // Temperatures are those of the whole motion, as /series/t_tr is, so that means over slabs,
-// weighted by the density, are those of the gas; but for t_tr_beside_flow, of which n needles miss
-// a share 1 / n, as they have their own mean.
+// weighted by the density, are those of the gas.
 #include <algorithm>
 #include <limits>
 
@@ -68,7 +67,8 @@ class WallProfiles : public Observable {
          unit::energy, each},
         {"velocity", "Mean velocity in each slab", unit::speed, vectors},
         {"t_tr_beside_flow",
-         "Translational temperature of the motion in each slab beside its mean velocity",
+         "Translational temperature of the motion in each slab beside its mean velocity; NaN of "
+         "one needle",
          unit::energy, each},
         {"p2", "Mean of (3 cos^2 - 1) / 2 of the angle between orientation and axis in each slab",
          unit::none, each},
@@ -117,7 +117,8 @@ class WallProfiles : public Observable {
     }
     put([&](const SlabSums& slab, const Slabs&) {
       const double of_flow = dot(slab.momentum, slab.momentum) / slab.mass;
-      return gas_.mass / 3 * ((slab.v2 - of_flow) / slab.count);
+      return slab.count > 1 ? gas_.mass / 3 * ((slab.v2 - of_flow) / (slab.count - 1))
+                            : std::numeric_limits<double>::quiet_NaN();
     });
     put_mean(&SlabSums::p2, 1);
     put_mean(&SlabSums::cos2, gas_.inertia > 0 ? 1 : std::numeric_limits<double>::quiet_NaN());

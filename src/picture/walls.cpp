@@ -8,15 +8,15 @@
 #include <numbers>
 
 #include "src/box/tilt.h"
+#include "src/scene/confinement.h"
 
 namespace needlework::picture {
 namespace {
 
-bool shakes(const Scene::Wall& wall) { return wall.motion && wall.motion->amplitude > 0; }
-
 WallKind kind_of(const Scene::Wall& wall) {
   if (wall.temperature) return WallKind::thermal;
-  const bool moves = wall.motion && (shakes(wall) || wall.motion->velocity.value_or(0) != 0);
+  const bool moves =
+      wall.motion && (wall.motion->amplitude > 0 || wall.motion->velocity.value_or(0) != 0);
   return moves ? WallKind::moving : WallKind::resting;
 }
 

@@ -48,6 +48,10 @@ std::array<Gap, 3> gaps_of(const Scene& scene) {
   return out;
 }
 
+bool shakes(const Scene::Wall& wall) {
+  return wall.motion && !wall.motion->velocity && !wall.motion->tangential;
+}
+
 std::optional<MovingEdges> moving_edges_of(const Scene& scene, const std::array<double, 3>& box) {
   std::optional<MovingEdges> out;
   for (const Scene::WallSide& side : scene.wall_sides()) {

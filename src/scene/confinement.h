@@ -27,6 +27,9 @@ struct Gap {
 };
 std::array<Gap, 3> gaps_of(const Scene& scene);
 
+/// Whether a wall has a motion that goes to and fro.
+bool shakes(const Scene::Wall& wall);
+
 /// The edges of a box as walls with a velocity move them; none where no wall has one.
 std::optional<MovingEdges> moving_edges_of(const Scene& scene, const std::array<double, 3>& box);
 

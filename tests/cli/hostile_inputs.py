@@ -1,7 +1,9 @@
 """Whatever a command is given to read, it ends within seconds: with what it was asked for, or with an
 error that names the input, exit code 3 or 5, and with little memory.
 
-    hostile_inputs.py NEEDLEWORK
+    hostile_inputs.py NEEDLEWORK [FLIPS]
+
+Each valid file is damaged by so many flipped bits, one at a time (1), and in other ways.
 """
 
 import os
@@ -88,11 +90,10 @@ def no_files():
     yield "deep objects", lambda path: path.write_text(100_000 * '{"a":')
 
 
-def damaged(whole, draw):
+def damaged(whole, draw, flips):
     """Damage to a valid file; the changed file may still be valid."""
-    for _ in range(2):
-        yield "cut short", whole[: draw.randrange(len(whole))]
-    for _ in range(3):
+    yield "cut short", whole[: draw.randrange(len(whole))]
+    for _ in range(flips):
         flipped = bytearray(whole)
         flipped[draw.randrange(len(whole))] ^= 1 << draw.randrange(8)
         yield "with a flipped bit", bytes(flipped)
@@ -102,7 +103,8 @@ def damaged(whole, draw):
 
 def main():
     program = os.path.abspath(sys.argv[1])
-    draw = random.Random(1)
+    flips = int(sys.argv[2]) if len(sys.argv) > 2 else 1
+    draw = random.Random(flips)
     failures = []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -138,7 +140,7 @@ def main():
             for what, make in no_files():
                 empty_list = kind == "pairs" and what == "an empty file"
                 attempt(kind, command, what, make, {0} if empty_list else {3, 5})
-            for what, content in damaged(inputs[kind], draw):
+            for what, content in damaged(inputs[kind], draw, flips):
                 attempt(kind, command, what, lambda path: path.write_bytes(content), {0, 3, 5})
     most = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
     if most > MEMORY:

@@ -82,7 +82,7 @@ TEST_F(Hostile, FlippedBitsEndNoReader) {
   const std::string whole = test::bytes_of(make_run()), path = file("flipped.h5");
   std::mt19937_64 random(2);
   int refused = 0;
-  for (int n = 0; n < 80; ++n) {
+  for (int n = 0; n < 40; ++n) {
     std::string bytes = whole;
     const std::size_t range = n % 2 ? bytes.size() : std::min<std::size_t>(bytes.size(), 4096);
     const std::size_t at = random() % range;
@@ -90,7 +90,7 @@ TEST_F(Hostile, FlippedBitsEndNoReader) {
     write_bytes(path, bytes);
     for (const std::string& verdict : verdicts(path)) refused += verdict != "read";
   }
-  EXPECT_GT(refused, 8);
+  EXPECT_GT(refused, 4);
 }
 
 // As in CVE-2021-37501: the size of an attribute overflows, so that HDF5 takes too little memory

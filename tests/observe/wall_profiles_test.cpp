@@ -164,10 +164,10 @@ TEST(WallProfiles, AreOfEachSpecies) {
   const std::vector<SeriesField>& fields = groups.back().fields;
   EXPECT_EQ(fields.at(0).shape.front().name, "species");
   EXPECT_EQ(fields.at(0).width(), 8u);
-  EXPECT_EQ(fields.at(10).name, "position");
-  EXPECT_EQ(fields.at(10).values, (std::vector<double>{1, 3, 5, 7}));  // of both
+  EXPECT_EQ(fields.at(12).name, "position");
+  EXPECT_EQ(fields.at(12).values, (std::vector<double>{1, 3, 5, 7}));  // of both
   // Densities, flows and t_tr of both.
-  const auto values = row.last(7 * 8 + 9 * 8 + 2);
+  const auto values = row.last(8 * 8 + 3 * 8 + 9 * 8 + 2);
   const double volume = 4 * 5 * 2;
   EXPECT_EQ(std::vector(values.begin(), values.begin() + 8),
             (std::vector<double>{1 / volume, 0, 0, 1 / volume, 0, 0, 1 / volume, 0}));
@@ -211,10 +211,10 @@ TEST(WallSums, HaveThePressureBetweenSamples) {
     sums.walls[0].normal_impulse = impulse;
     sums.walls[0].phase = 1.5;
     const auto row = observation.sample({}, totals, sums);
-    // Hits, impulse, phase, pressure; energies from pairs, from the wall and from callers.
-    EXPECT_EQ(row.size(), 7u);
+    // Hits, impulse, phase, work, pressure; energies from pairs, from the wall and from callers.
+    EXPECT_EQ(row.size(), 8u);
     EXPECT_EQ(row[2], 1.5);
-    return row[3];
+    return row[4];
   };
   Observation observation(scene), other(scene);
   EXPECT_TRUE(std::isnan(pressure_at(observation, 0, 0)));

@@ -21,6 +21,8 @@ RELAXING = {**FEW, "needles.k": [2, 6], "until.time": 1000, "until.collisions_pe
             "output.series_every": 0.5, "output.observables": [["velocity_moments"]]}
 SLIDING = {**FEW, "needles.box": 4, "collisions.epsilon": [0.8, 0.5], "until.energy_ratio": 1e-2}
 SHEAR = {"needles.count": 16, "needles.box": 2.5, "until.time": 8}
+OBSTACLES = {"species.moving.count": 30, "species.still.count": 100, "until.time": 5,
+             "output.series_every": 0.05}
 LIQUID = {**FEW, "until.time": 3, "output.series_every": 0.02}
 
 
@@ -89,6 +91,17 @@ GRIDS = {
     "liquid-dense": ("liquid", {**LIQUID, "needles.count": 410, "needles.box": 2.04}),
     "liquid-small": ("liquid", {**LIQUID, "needles.count": 90, "needles.box": 2.2}),
     "liquid-large": ("liquid", {**LIQUID, "needles.count": 110, "needles.box": 2.4}),
+    "obstacles-thin": ("obstacles", {**OBSTACLES, "needles.box": [4, 3]}),
+    "obstacles": ("obstacles", {**OBSTACLES, "needles.box": [2.5, 2.3]}),
+    "obstacles-dense": ("obstacles", {**OBSTACLES, "needles.box": 2.1}),
+    "obstacles-large": ("obstacles", {**OBSTACLES, "species.still.count": 150,
+                                      "needles.box": 2.862}),
+    "obstacles-spheres": ("obstacles-spheres", {**OBSTACLES, "needles.box": [4, 3, 2.5]}),
+    "obstacles-beads": ("obstacles-spheres", {**OBSTACLES, "needles.box": [4, 2.5],
+                                              "species.still.diameter": 0.04}),
+    "obstacles-beads-dense": ("obstacles-spheres", {**OBSTACLES, "needles.box": 2.1,
+                                                    "species.still.diameter": 0.04}),
+    "obstacles-points": ("obstacles-points", {**OBSTACLES, "needles.box": [5, 4]}),
 }
 """Scene and parameters of each set of runs; seeds are 1, 2 and 3."""
 

@@ -96,6 +96,11 @@ TEST(RestoredScene, HasAllKeys) {
                            "driving.andersen = { rate = 0.5, temperature = 2 }\n"
                            "shear = { rate = 0.1, offset = 2 }",
                            "needles = { count = 1, box = 3 }\nuntil.time = 1\n"
+                           "[[walls]]\naxis = 'z'\nside = 'high'\n"
+                           "motion = { velocity = -1, stop_at = 2 }\n"
+                           "[[walls]]\naxis = 'z'\nside = 'low'\ntemperature = 1\n"
+                           "motion = { tangential = [1, 2] }\n",
+                           "needles = { count = 1, box = 3 }\nuntil.time = 1\n"
                            "initial.file = \"state.h5\"\n"
                            "collisions.tc_relative = 1"}) {
     const Scene scene = parse_scene(text, "scene.toml");

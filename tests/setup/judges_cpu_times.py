@@ -26,11 +26,15 @@ CPU time {time} s
 def main():
     quick, long, endless, none = judge(["0.01", "2.99"]), judge(["0.01", "3.01"]), \
         judge(["7.9", "8.01"]), judge([])
+    slow_hour = ["2.5"] * 300
+    in_it, too_long = judge(slow_hour + ["14"]), judge(slow_hour + ["18"])
     assert quick.returncode == 0 and "Takes" not in quick.stdout, quick
     assert "2 tests took 3 s of CPU, the longest 3.0 s." in quick.stdout, quick
     assert long.returncode == 0 and "3.0 s of CPU: Suite.Takes3.01" in long.stdout, long
     assert endless.returncode == 1 and "Takes8.01" in endless.stdout, endless
     assert "Takes7.9" in endless.stdout and "at most 8 s" in endless.stderr, endless
+    assert in_it.returncode == 0 and "Takes14" in in_it.stdout, in_it
+    assert too_long.returncode == 1 and "at most 15.4 s" in too_long.stderr, too_long
     assert none.returncode == 1 and "has no CPU times" in none.stderr, none
 
 

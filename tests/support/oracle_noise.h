@@ -63,8 +63,10 @@ inline Noise noise_at(const Motion<double>& motion, const Geometry<double>& g, d
     noise.arms_inputs[i] = direct + rate * (noise.shift_inputs + reach);
     noise.arms_evaluation[i] = direct + rate * noise.shift_evaluation + 4 * over(u, sine);
     const double moment = norm(cross(g.u[1 - i], g.separation));
-    const double moment_noise =
-        dr + 2 * (du[0] + du[1]) + (speed + 2 * motion.total_spin()) * (noise.shift_inputs + reach);
+    // Centres of long needles are far apart.
+    const double lever = 2 * std::max(1.0, norm(g.separation));
+    const double moment_noise = dr + lever * (du[0] + du[1]) +
+                                (speed + 2 * motion.total_spin()) * (noise.shift_inputs + reach);
     noise.moments_outside[i] = (moment - motion.half[i] * sine) / moment_noise;
   }
   return noise;

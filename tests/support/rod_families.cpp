@@ -304,6 +304,36 @@ RodCase sphere_and_rod(Random& random) {
   });
 }
 
+// Of lengths from 1 : 1 to 1 : 1e4.
+RodCase unequal_rods(Random& random) {
+  return until_apart(random, [&](Drawing& d) {
+    d.shape();
+    (random.coin() ? d.out.pair.half_first : d.out.pair.half_second) *= power_of_ten(random, -4, 0);
+    d.direct();
+    d.touch_any();
+    d.move();
+    d.back(d.time());
+  });
+}
+
+// A thin needle, and a sphere that does not move, of a radius from 1e-3 to 30 needle lengths.
+RodCase needle_and_fixed_sphere(Random& random) {
+  return until_apart(random, [&](Drawing& d) {
+    d.out.pair.half_first = 0.5;
+    d.out.pair.half_second = 0;
+    d.out.pair.distance = power_of_ten(random, -3, 1.5);
+    d.out.pair.touch_within = 0x1p-44 * 20;
+    d.scale = 0.5 + d.out.pair.distance;
+    d.direct();
+    d.touch_any();
+    d.move();
+    d.out.second.v = d.out.second.w = {};
+    set_rotation(d.out.second);
+    d.back(std::min(1.0, d.scale) * power_of_ten(random, -3, 0));
+    if (random.coin()) d.out = d.out.exchanged();
+  });
+}
+
 RodCase just_collided_spheres(Random& random) {
   Drawing d(random);
   d.shape();
@@ -403,6 +433,8 @@ const std::vector<RodFamily>& rod_families() {
       {"just_collided_parallel", just_collided_parallel_rods},
       {"spheres", spheres},
       {"sphere_and_rod", sphere_and_rod},
+      {"unequal", unequal_rods},
+      {"needle_and_fixed_sphere", needle_and_fixed_sphere},
       {"just_collided_spheres", just_collided_spheres},
       {"fast", fast_rods},
       {"still", still_rods},

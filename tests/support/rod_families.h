@@ -27,6 +27,8 @@ struct RodFamily {
 /// - tip: contacts 10^-x from a tip, x in 2 .. 15
 /// - just-collided: at a contact at s = 0;  just-collided-parallel: at angles 1e-9 .. 1e-2
 /// - spheres, sphere-and-rod, just-collided-spheres
+/// - unequal: lengths from 1 : 1 to 1 : 1e4
+/// - needle_and_fixed_sphere: thin, and of radii from 1e-3 to 30 of its length
 /// - fast: rotating 1e2 .. 1e4 times as fast as they fly;  still: one or both do not rotate
 /// - records: records of different times, another image, and gravity between
 /// - far: 1e2 .. 1e4 lengths apart;  slow: velocities times 2^-300

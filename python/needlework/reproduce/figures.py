@@ -1,7 +1,8 @@
 """All figures, those of the paper first."""
 
-from . import (alignment, boltzmann, causes, confined, dense, dilute, driving, flow, fluctuations,
-               large, liquid, nematic, ratio, relaxation, rods, shear, sliding)
+from . import (alignment, boltzmann, causes, confined, dense, dilute, driving, flow, flows,
+               fluctuations, large, liquid, nematic, obstacles, ratio, relaxation, rods, shear,
+               sliding)
 from .figure import Figure
 
 FIGURES = {figure.name: figure for figure in (
@@ -69,6 +70,10 @@ FIGURES = {figure.name: figure for figure in (
            driving.measure_vibrated, driving.draw_vibrated),
     Figure("shear", "Beyond the paper: uniform shear", tuple(shear.SETS),
            shear.measure_shear, shear.draw_shear),
+    Figure("piston", "Beyond the paper: pistons", tuple(flows.PISTONS),
+           flows.measure_pistons, flows.draw_pistons),
+    Figure("channels", "Beyond the paper: flow between sliding walls and along channels",
+           tuple(flows.FLOWS), flows.measure_flows, flows.draw_flows),
     Figure("walls", "Beyond the paper: a gas that cools between walls", ("walls",),
            confined.measure_walls, confined.draw_walls),
     Figure("sedimentation", "Beyond the paper: elastic needles above a floor", ("sedimentation",),
@@ -87,5 +92,7 @@ FIGURES = {figure.name: figure for figure in (
            (*liquid.SETS, *liquid.OTHER_SIZES), liquid.measure_liquid, liquid.draw_liquid),
     Figure("liquid-correlations", "Beyond the paper: correlations in time in the liquid",
            liquid.SETS, liquid.measure_correlations, liquid.draw_correlations),
+    Figure("obstacles", "Beyond the paper: diffusion of needles among bodies that do not move",
+           tuple(obstacles.SETS), obstacles.measure_obstacles, obstacles.draw_obstacles),
 )}
 """By name, as the command takes it."""

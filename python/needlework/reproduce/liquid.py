@@ -59,7 +59,7 @@ def measure_liquid(runs: PaperRuns) -> Result:
     for number, (point, of_runs) in enumerate(points + others):
         gas = point.conditions
         measured = {name: mean_of([run[name] for run in of_runs]) for name in NAMES}
-        exact, free = _exact_rate(point), theory.diffusion(gas.k, gas.density, gas.t_tr)
+        exact, free = exact_rate(point), theory.diffusion(gas.k, gas.density, gas.t_tr)
         result.rows.append((gas.density, gas.count, number >= len(points), exact, float(free.d), float(free.d_rot),
                             point.seeds, *(number for name in NAMES
                                            for number in measured[name][:2])))
@@ -267,7 +267,7 @@ def _memory(lag: np.ndarray, correlation: np.ndarray) -> float:
     return _integral(lag, correlation) + float(last / rate)
 
 
-def _exact_rate(point: Point) -> float:
+def exact_rate(point: Point) -> float:
     """Collisions of a needle per time in equilibrium, of so many needles with this energy."""
     gas = point.conditions
     energy = gas.count * (1.5 * gas.t_tr + gas.t_rot)

@@ -245,15 +245,20 @@ def _points_of(parameters: dict[str, Any]) -> list[dict[str, Any]]:
 
 def _overridden(scene: dict[str, Any], values: dict[str, Any]) -> dict[str, Any]:
     """The scene with other values. A key goes through tables, "driving.kicks.every", and names a
-    wall by axis and side, "walls.z-low.epsilon"."""
+    wall by axis and side, "walls.z-low.epsilon", and a species by its name, "species.a.count"."""
     scene = copy.deepcopy(scene)
     for key, value in values.items():
         *path, name = key.split(".")
         table: Any = scene
         for part in path:
             if isinstance(table, list):
-                table = next(each for each in table if f"{each['axis']}-{each['side']}" == part)
+                table = next(each for each in table if _name_of(each) == part)
             else:
                 table = table.setdefault(part, {})
         table[name] = value
     return scene
+
+
+def _name_of(entry: dict[str, Any]) -> str:
+    """Of an entry of an array of tables, a species or a wall."""
+    return entry.get("name") or f"{entry['axis']}-{entry['side']}"
