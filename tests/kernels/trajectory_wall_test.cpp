@@ -79,7 +79,7 @@ TEST(CourseWall, IsThatOfTheOracleInEveryFamily) {
 TEST(CourseWall, DoesNotDependOnWhenItIsAskedFor) {
   DrawnWalls drawn(3);
   for (int n = 0; n < 300; ++n) {
-    const WallCase a = drawn.draw(static_cast<WallFamily>(n % 4));
+    const WallCase a = drawn.draw(static_cast<WallFamily>(n % 6));
     const double to = 6;
     const FlightCourse trajectory(a, to);
     const WallContact found = trajectory_wall_contact(trajectory, a.approach, 0, to);

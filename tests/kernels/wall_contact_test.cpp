@@ -36,7 +36,7 @@ TEST(WallContact, IsThatOfTheOracleInEveryFamily) {
 TEST(WallContact, DoesNotDependOnWhenItIsAskedFor) {
   DrawnWalls drawn(2);
   for (int n = 0; n < 2000; ++n) {
-    const WallCase a = drawn.draw(static_cast<WallFamily>(n % 4));
+    const WallCase a = drawn.draw(static_cast<WallFamily>(n % 6));
     const double to = 6;
     const WallContact found = first_wall_contact(a.approach, 0, to);
     const double latest = found.found ? found.elapsed : to;
@@ -110,6 +110,34 @@ TEST(WallContact, ComesBackAfterABounce) {
   a.flight.r = {0, 0, 0.5};
   a.flight.v = {0, 0, 1e-16};
   EXPECT_TRUE(first_wall_contact(a.approach, 0, 10).unresolvable);
+}
+
+// The wall moves up with 1 / 2 until 1, and the tip that it has hit falls back with 2. What is
+// called height 0 stays so where the wall halts: the tip begins a little off the surface, and is
+// back when it is as far off the halted one.
+TEST(WallContact, ComesBackToAWallThatHasHaltedMeanwhile) {
+  for (const double off : {0.0, 5e-13, -5e-13}) {
+    for (const double speed : {0.75, 1.0, 1.25, 3.0}) {  // beside the wall's
+      WallCase a;
+      a.approach.resolution = 0x1p-70;
+      a.approach.tolerance = 1e-12;
+      a.approach.gravity = -2;
+      a.approach.touching = 2;  // the tip at -u
+      a.approach.wall.axis = 2;
+      a.approach.wall.velocity = 0.5;
+      a.approach.wall.halt = 1;
+      a.approach.wall.halt_place = 0.5;
+      a.flight.u = {0, 0, 1};
+      a.flight.r = {0, 0, 0.5 + off};
+      a.flight.v = {0, 0, speed + 0.5};
+      const WallContact found = first_wall_contact(a.approach, 0, 10);
+      ASSERT_TRUE(found.found);
+      EXPECT_EQ(found.tip, 1);
+      const double b = 0.5 * (speed + 0.5);
+      EXPECT_NEAR(found.elapsed, speed <= 1 ? speed : b + std::sqrt(b * b - 0.5), 1e-15)
+          << speed << ", " << off;
+    }
+  }
 }
 
 TEST(WallContact, TellsANeedleAcrossTheWall) {

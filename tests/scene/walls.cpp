@@ -1,6 +1,7 @@
 // Scenes with [[walls]] and [forces].
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,7 +24,10 @@ until.time = 5
 )";
 const std::string one_of_walls =
     "expected one of axis, side, epsilon, temperature, motion.amplitude, motion.frequency, "
-    "motion.phase";
+    "motion.phase, motion.velocity, motion.stop_at, motion.tangential";
+const std::string motion_keys =
+    "expected {amplitude = ..., frequency = ..., phase = ..., velocity = ..., stop_at = ..., "
+    "tangential = ...}";
 
 // Walls as lines of TOML, from line 4 on.
 std::string with_walls(const std::string& walls) { return unwalled + walls; }
@@ -140,10 +144,8 @@ TEST(BadWalls, AreRefused) {
       {both + "motion = { amplitude = 1 }",
        "walls.motion.frequency is missing: expected a number > 0 of cycles per time (from 1e-100 "
        "to 1e100)"},
-      {both + "motion = {}",
-       "line 7: walls.motion = {}: expected {amplitude = ..., frequency = ..., phase = ...}"},
-      {both + "motion = 2",
-       "line 7: walls.motion = 2: expected {amplitude = ..., frequency = ..., phase = ...}"},
+      {both + "motion = {}", "line 7: walls.motion = {}: " + motion_keys},
+      {both + "motion = 2", "line 7: walls.motion = 2: " + motion_keys},
       {both + "motion = { ampltude = 2 }",
        "line 7: walls.motion.ampltude = 2: " + one_of_walls + ", did you mean motion.amplitude?"},
       {both + "temprature = 2",
@@ -198,6 +200,148 @@ TEST(BadWalls, DoNotGoTogether) {
         "forces.gravity = [1, 2, -1]\n" + wall("z", "low", "temperature = 2\n")}) {
     EXPECT_EQ(message(with_walls(good)), "no error") << good;
   }
+}
+
+TEST(Walls, MoveAsTheSceneSays) {
+  const Scene piston = parse_scene(
+      with_walls(wall("z", "low", "motion.velocity = 0.25\n") +
+                 wall("z", "high", "motion = { velocity = -0.5, stop_at = 10 }\nepsilon = 0.9\n")),
+      "s.toml");
+  ASSERT_EQ(piston.walls.size(), 2u);
+  EXPECT_EQ(piston.walls[0].motion->velocity, 0.25);
+  EXPECT_FALSE(piston.walls[0].motion->stop_at || piston.walls[0].motion->tangential);
+  EXPECT_EQ(piston.walls[0].motion->amplitude, 0);
+  EXPECT_EQ(piston.walls[1].motion->velocity, -0.5);
+  EXPECT_EQ(piston.walls[1].motion->stop_at, 10);
+  EXPECT_EQ(piston.walls[1].epsilon, 0.9);
+  EXPECT_TRUE(piston.has_moving_walls());
+  const Scene belts = parse_scene(
+      with_walls(wall("y", "both", "temperature = 2\nmotion.tangential = [1.5, -3]\n")), "s.toml");
+  EXPECT_EQ(belts.walls[0].motion->tangential, (std::array{1.5, -3.0}));
+  EXPECT_EQ(belts.walls[0].temperature, 2);
+  EXPECT_FALSE(belts.has_moving_walls() || belts.walls[0].motion->velocity);
+  EXPECT_EQ(parse_scene(with_walls(both), "s.toml",
+                        Overrides{"walls.motion.velocity=-2", "until.time=0.1"})
+                .walls[0]
+                .motion->velocity,
+            -2);
+}
+
+TEST(BadWalls, HaveOneKindOfMotion) {
+  const std::string not_thermal =
+      "expected walls.temperature besides: the impulse of a smooth wall is along its normal, so "
+      "that its own motion in its plane changes nothing";
+  const std::string alone =
+      "expected none beside amplitude or velocity: walls that slide in their plane are thermal, "
+      "and those do not move along their normal";
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"temperature = 1\nmotion.velocity = 0.5",
+       "line 8: walls.motion.velocity = 0.5: expected none beside temperature: thermal walls do "
+       "not "
+       "move along their normal"},
+      {"motion = { velocity = 0.5, amplitude = 0.1, frequency = 1 }",
+       "line 7: walls.motion.velocity = 0.5: expected none beside amplitude: a wall moves at "
+       "constant velocity or shakes"},
+      {"motion = { velocity = 0.5, amplitude = 0, frequency = 1 }",
+       "line 7: walls.motion.velocity = 0.5: expected none beside amplitude: a wall moves at "
+       "constant velocity or shakes"},
+      {"motion.tangential = [1, 0]", "line 7: walls.motion.tangential = [1, 0]: " + not_thermal},
+      {"epsilon = 0.5\nmotion.tangential = [1, 0]",
+       "line 8: walls.motion.tangential = [1, 0]: " + not_thermal},
+      {"motion = { tangential = [1, 0], velocity = 0.5 }",
+       "line 7: walls.motion.tangential = [1, 0]: " + alone},
+      {"motion = { tangential = [1, 0], amplitude = 0.1, frequency = 1 }",
+       "line 7: walls.motion.tangential = [1, 0]: " + alone},
+      {"motion.stop_at = 3",
+       "walls.motion.amplitude is missing: expected a length >= 0 (at most 1e9)"},
+      {"motion = { stop_at = 3, amplitude = 0.1, frequency = 1 }",
+       "line 7: walls.motion.stop_at = 3: expected a velocity besides, other than 0"},
+      {"motion = { stop_at = 3, velocity = 0 }",
+       "line 7: walls.motion.stop_at = 3: expected a velocity besides, other than 0"},
+      {"motion = { stop_at = 3, velocity = 0.5 }",
+       "line 7: walls.motion.stop_at = 3: expected side \"low\" or \"high\": two walls cannot stop "
+       "at one place"},
+      {"motion.phase = 1",
+       "walls.motion.amplitude is missing: expected a length >= 0 (at most 1e9)"},
+      {"motion.velocity = inf",
+       "line 7: walls.motion.velocity = inf: expected a velocity along the positive axis (at most "
+       "1e100)"},
+      {"motion = { velocity = 1, stop_at = nan }",
+       "line 7: walls.motion.stop_at = nan: expected a coordinate (from -1e9 to 1e9)"},
+      {"motion.tangential = 1",
+       "line 7: walls.motion.tangential = 1: expected [a, b], a velocity along each of the two "
+       "other "
+       "axes (at most 1e100)"},
+      {"motion.tangential = [1, 2, 3]",
+       "line 7: walls.motion.tangential = [1, 2, 3]: expected [a, b], a velocity along each of the "
+       "two other axes (at most 1e100)"},
+      {"motion.velocit = 1",
+       "line 7: walls.motion.velocit = 1: " + one_of_walls + ", did you mean motion.velocity?"},
+  };
+  for (const auto& [more, expected] : cases)
+    EXPECT_EQ(message(with_walls(both + more)), "s.toml: " + expected) << more;
+}
+
+TEST(BadWalls, StopBehindWhereTheyStart) {
+  struct Case {
+    const char* side;
+    double velocity, stop;
+    std::string expected;
+  };
+  for (const Case& c : {Case{"low", 0.5, 2, ""},
+                        {"low", -0.5, -2, ""},
+                        {"high", -0.5, 9, ""},
+                        {"high", 0.5, 13, ""},
+                        {"low", 0.5, -2, "above 0, from which the wall moves up"},
+                        {"low", -0.5, 2, "below 0, from which the wall moves down"},
+                        {"low", 0.5, 0, "above 0, from which the wall moves up"},
+                        {"high", -0.5, 13, "below 12, from which the wall moves down"},
+                        {"high", 0.5, 12, "above 12, from which the wall moves up"}}) {
+    const std::string moving = wall("z", c.side,
+                                    "motion = { velocity = " + std::to_string(c.velocity) +
+                                        ", stop_at = " + std::to_string(c.stop) + " }\n");
+    const std::string other = wall("z", std::string(c.side) == "low" ? "high" : "low");
+    const std::string found = message(with_walls(moving + other));
+    if (c.expected.empty()) {
+      EXPECT_EQ(found, "no error") << moving;
+    } else {
+      EXPECT_TRUE(test::contains(found, "walls.motion.stop_at = ")) << found;
+      EXPECT_TRUE(test::contains(found, ": expected a place " + c.expected)) << found;
+    }
+  }
+}
+
+// At the time of the scene's end they need room for the longest body, with the amplitude of one
+// that shakes.
+TEST(BadWalls, MeetBeforeTheEnd) {
+  const auto until = [](const std::string& time, const std::string& walls) {
+    return message("needles = { count = 10, box = 12 }\nuntil.time = " + time + "\n" + walls);
+  };
+  const auto expected = [](const char* given, const char* time, const char* near) {
+    return std::string("s.toml: line 2: until.time = ") + given + ": expected a time before " +
+           time + ", when the walls along z have come as near as " + near +
+           ", the extent of the longest body";
+  };
+  const std::string closing =
+      wall("z", "low", "motion.velocity = 0.5\n") + wall("z", "high", "motion.velocity = -1.5\n");
+  EXPECT_EQ(until("5.25", closing), "no error");
+  EXPECT_EQ(until("5.75", closing), expected("5.75", "5.5", "1"));
+  EXPECT_EQ(
+      message("needles.count = 10\nneedles.box = 12\nuntil.collisions_per_needle = 9\n" + closing),
+      "no error");  // known to end there
+  const std::string stops = wall("z", "low", "motion = { velocity = 0.5, stop_at = 1 }\n") +
+                            wall("z", "high", "motion = { velocity = -1.5, stop_at = 3 }\n");
+  EXPECT_EQ(until("1000", stops), "no error");
+  const std::string shaken = wall("z", "low", "motion = { amplitude = 0.5, frequency = 1 }\n") +
+                             wall("z", "high", "motion.velocity = -1\n");
+  EXPECT_EQ(until("10.25", shaken), "no error");
+  EXPECT_TRUE(test::contains(until("10.75", shaken), "as near as 1.5"));
+  const std::string rods =
+      "needles.box = 12\nuntil.time = 9.5\n"
+      "species = [{ name = 'a', count = 1, length = 2, diameter = 0.75 }]\n";
+  const std::string from_above = wall("z", "low") + wall("z", "high", "motion.velocity = -1\n");
+  EXPECT_EQ(message(rods + from_above), expected("9.5", "9.25", "2.75"));
+  EXPECT_EQ(message(rods + from_above, {"until.time=9.2"}), "no error");
 }
 
 // The gap between two walls needs room for one needle, at all times; a periodic edge for two.

@@ -10,6 +10,7 @@
 
 #include "kernels/wall_contact.h"
 #include "src/audit/quad.h"
+#include "src/box/moving_edge.h"
 #include "src/physics/director.h"
 
 namespace needlework::test {
@@ -45,9 +46,14 @@ class TipHeight {
     omega_ = sqrt(Real(w(0) * w(0) + w(1) * w(1) + w(2) * w(2)));
     along_ = half * u(axis);
     if (omega_ > 0) across_ = half * (w(next) * u(last) - w(last) * u(next)) / omega_;
-    start_ =
-        sign * (Real(component(flight.r, axis)) - (Real(a.wall.place.hi) + Real(a.wall.place.lo)));
-    speed_ = sign * Real(component(flight.v, axis));
+    const auto above = [&](const DoubleDouble& place) {
+      return Real(sign * (Real(component(flight.r, axis)) - (Real(place.hi) + Real(place.lo))));
+    };
+    start_ = above(a.wall.place);
+    halt_ = a.wall.halt;
+    start_halted_ = above(a.wall.halt_place);
+    speed_halted_ = sign * Real(component(flight.v, axis));
+    speed_ = speed_halted_ - sign * Real(a.wall.velocity);
     half_fall_ = sign * Real(a.gravity) / 2;
     amplitude_ = sign * Real(a.wall.amplitude);
     static const Real two_pi = 4 * WallQuad(acos(WallQuad(0))).template convert_to<Real>();
@@ -55,21 +61,29 @@ class TipHeight {
     const Real phase = two_pi * (Real(a.turns.hi) + Real(a.turns.lo));
     sine_ = sin(phase);
     cosine_ = cos(phase);
-    if ((a.touching >> tip & 1) != 0) start_ -= height(Real(0));
+    if ((a.touching >> tip & 1) != 0) {
+      const Real off = height(Real(0));
+      start_ -= off;
+      start_halted_ -= off;
+    }
   }
 
-  Real height(const Real& s) const {
+  Real height(const Real& s) const { return height(s, s >= halt_); }
+  Real rate(const Real& s) const { return rate(s, s >= halt_); }
+  /// Over the wall as it is before or after it halts.
+  Real height(const Real& s, bool halted) const {
     using std::sin, std::cos;
-    Real out = start_ + (speed_ + half_fall_ * s) * s + along_ * cos(Real(omega_ * s)) +
-               across_ * sin(Real(omega_ * s));
+    Real out = (halted ? start_halted_ + (speed_halted_ + half_fall_ * s) * s
+                       : start_ + (speed_ + half_fall_ * s) * s) +
+               along_ * cos(Real(omega_ * s)) + across_ * sin(Real(omega_ * s));
     if (amplitude_ != 0) {
       out -= amplitude_ * (sine_ * cos(Real(turn_ * s)) + cosine_ * sin(Real(turn_ * s)));
     }
     return out;
   }
-  Real rate(const Real& s) const {
+  Real rate(const Real& s, bool halted) const {
     using std::sin, std::cos;
-    Real out = speed_ + 2 * half_fall_ * s +
+    Real out = (halted ? speed_halted_ : speed_) + 2 * half_fall_ * s +
                omega_ * (across_ * cos(Real(omega_ * s)) - along_ * sin(Real(omega_ * s)));
     if (amplitude_ != 0) {
       out -= amplitude_ * turn_ * (cosine_ * cos(Real(turn_ * s)) - sine_ * sin(Real(turn_ * s)));
@@ -86,14 +100,15 @@ class TipHeight {
   Real rounding(const Real& to) const {
     using std::abs;
     return Real(0x1p-56) *
-           (abs(start_) + abs(along_) + abs(across_) + abs(amplitude_) +
-            (abs(speed_) + abs(half_fall_) * to) * to) *
+           (abs(start_) + abs(start_halted_) + abs(along_) + abs(across_) + abs(amplitude_) +
+            (abs(speed_) + abs(speed_halted_) + abs(half_fall_) * to) * to) *
            (1 + (omega_ + turn_) * to);
   }
 
  private:
-  Real start_, speed_, half_fall_, omega_, along_ = 0, across_ = 0, amplitude_, turn_, sine_,
-                                           cosine_;
+  Real start_, speed_, start_halted_, speed_halted_, half_fall_, omega_,
+      along_ = 0, across_ = 0, amplitude_, turn_, sine_, cosine_;
+  double halt_;
 };
 
 /// The first time up to `to` at which the tip comes to the wall, if it does.
@@ -101,20 +116,23 @@ class TipRoots {
  public:
   TipRoots(const WallCase& of, int tip, double to)
       : of_(of), tip_(tip), rough_(of, tip), bend_(rough_.bend()), rounding_(rough_.rounding(to)) {
-    first_ = first_in(0, to);
+    const double halt = std::clamp(of.approach.wall.halt, 0.0, to);
+    if (halt > 0) first_ = first_in(0, halt);
+    halted_ = true;
+    if (!first_ && halt < to) first_ = first_in(halt, to);
   }
   std::optional<WallQuad> first() const { return first_; }
 
  private:
   static int sign(const WallQuad& h) { return h > 0 ? 1 : h < 0 ? -1 : 0; }
   int sign_at(long double s) const {
-    const long double h = rough_.height(s);
-    return std::abs(h) > rounding_ ? (h > 0 ? 1 : -1) : sign(exact().height(WallQuad(s)));
+    const long double h = rough_.height(s, halted_);
+    return std::abs(h) > rounding_ ? (h > 0 ? 1 : -1) : sign(exact().height(WallQuad(s), halted_));
   }
   // The tip is not in the wall at `from`.
   std::optional<WallQuad> first_in(long double from, long double to) const {
     const long double middle = 0.5L * (from + to), half = 0.5L * (to - from);
-    const long double h = rough_.height(middle), rate = rough_.rate(middle);
+    const long double h = rough_.height(middle, halted_), rate = rough_.rate(middle, halted_);
     if (h - (std::abs(rate) + 0.5L * bend_ * half) * half > rounding_) return std::nullopt;
     const bool is_tiny = half < 0x1p-58L * (1 + to);
     if (std::abs(rate) > bend_ * half + rounding_ * (1 + bend_) || is_tiny) {
@@ -128,20 +146,21 @@ class TipRoots {
   WallQuad root(long double from, long double to) const {
     long double below = from, above = to;
     for (int n = 0; n < 80 && above - below > 0x1p-62L * (1 + above); ++n) {
-      long double at = below - rough_.height(below) / rough_.rate(below);
+      long double at = below - rough_.height(below, halted_) / rough_.rate(below, halted_);
       if (!(at > below && at < above) || n % 4 == 3) at = 0.5L * (below + above);
-      (rough_.height(at) > 0 ? below : above) = at;
+      (rough_.height(at, halted_) > 0 ? below : above) = at;
     }
     const WallQuad middle = 0.5L * (below + above), near = WallQuad(1e-20) * (1 + middle);
-    const WallQuad newton = middle - exact().height(middle) / exact().rate(middle);
-    if (newton - near > from && newton + near < to && exact().height(newton - near) > 0 &&
-        !(exact().height(newton + near) > 0)) {
+    const auto height = [&](const WallQuad& s) { return exact().height(s, halted_); };
+    const WallQuad newton = middle - height(middle) / exact().rate(middle, halted_);
+    if (newton - near > from && newton + near < to && height(newton - near) > 0 &&
+        !(height(newton + near) > 0)) {
       return newton;
     }
     WallQuad low = from, high = to;
     while (high - low > near) {
       const WallQuad half = (low + high) / 2;
-      (exact().height(half) > 0 ? low : high) = half;
+      (height(half) > 0 ? low : high) = half;
     }
     return high;
   }
@@ -156,6 +175,7 @@ class TipRoots {
   TipHeight<long double> rough_;
   mutable std::optional<TipHeight<WallQuad>> exact_;  // made where it is needed
   long double bend_, rounding_;
+  bool halted_ = false;
   std::optional<WallQuad> first_;
 };
 
@@ -188,18 +208,20 @@ inline WallTruth first_wall_contact_in_quad(const WallCase& of, double to) {
 
 /// How needles and walls are drawn.
 enum class WallFamily {
-  resting,   ///< walls at rest, free flight
-  moving,    ///< walls that vibrate
-  falling,   ///< under gravity, over walls at rest
-  shaken,    ///< under gravity, over walls that vibrate
-  grazing,   ///< a tip comes within 1e-3 to 1e-15 of the wall, or so far into it
-  lying,     ///< directors nearly along the wall, so that both tips come at almost one time
-  bouncing,  ///< a tip has just hit the wall, and is off it by rounding
+  resting,    ///< walls at rest, free flight
+  moving,     ///< walls that vibrate
+  falling,    ///< under gravity, over walls at rest
+  shaken,     ///< under gravity, over walls that vibrate
+  advancing,  ///< walls of constant velocity, slow and fast, with and without gravity
+  halting,    ///< such walls that come to rest within the time of the search
+  grazing,    ///< a tip comes within 1e-3 to 1e-15 of the wall, or so far into it
+  lying,      ///< directors nearly along the wall, so that both tips come at almost one time
+  bouncing,   ///< a tip has just hit the wall, and is off it by rounding
 };
-inline constexpr int wall_families = 7;
+inline constexpr int wall_families = 9;
 inline const char* name_of(WallFamily family) {
-  constexpr const char* names[] = {"resting", "moving", "falling", "shaken",
-                                   "grazing", "lying",  "bouncing"};
+  constexpr const char* names[] = {"resting", "moving",  "falling", "shaken",  "advancing",
+                                   "halting", "grazing", "lying",   "bouncing"};
   return names[static_cast<int>(family)];
 }
 
@@ -243,16 +265,20 @@ class DrawnWalls {
     a.wall.place = uniform(-3, 3);
     a.half = uniform(0.05, 1);
     const bool is_hard = family >= WallFamily::grazing;
+    const bool travels = family == WallFamily::advancing || family == WallFamily::halting;
     if (family == WallFamily::falling || family == WallFamily::shaken ||
-        (is_hard && below(2) == 0)) {
+        ((is_hard || travels) && below(2) == 0)) {
       a.gravity = a.wall.normal * uniform(-3, 1);
     }
-    if (family == WallFamily::moving || family == WallFamily::shaken ||
-        (is_hard && below(2) == 0)) {
+    // Half of the hard cases shake, a quarter travels.
+    const int motion = is_hard ? below(8) : -1;
+    if (family == WallFamily::moving || family == WallFamily::shaken || motion >= 4) {
       a.wall.amplitude = uniform(0, 0.5);
       a.wall.frequency = uniform(0.1, 3);
       a.turns = DoubleDouble(uniform(0, 1));
     }
+    if (travels || motion == 0 || motion == 1)
+      let_travel(a.wall, family == WallFamily::halting || motion == 1);
     a.resolution = 0x1p-52;
     a.tolerance = 0x1p-44;
     kernels::Flight& f = out.flight;
@@ -265,6 +291,20 @@ class DrawnWalls {
     f.r = normal();
     along(f.r, a.wall.axis) = a.wall.place.hi + a.wall.normal * uniform(0, 1.5);
     return out;
+  }
+  // As walls do whose surface has been on its way for some time, with the rounding of that. Speeds
+  // reach beyond those of all tips; times at which much slower ones meet round by more than the
+  // comparison allows.
+  void let_travel(kernels::WallPlane& wall, bool halts) {
+    const double speed = std::pow(10.0, uniform(-2, 0.7)), now = uniform(0, 100);
+    const double velocity = below(2) == 0 ? speed : -speed, start = wall.place.hi;
+    const double stop = start + velocity * (now + uniform(0, 3));
+    const MovingEdge edge(start, velocity, halts ? std::optional(stop) : std::nullopt);
+    wall.place = edge.place(now);
+    if (edge.is_at_rest(now)) return;
+    wall.velocity = velocity;
+    if (halts) wall.halt = to_double(edge.halt_time() - DoubleDouble(now));
+    wall.halt_place = edge.stop();
   }
   // Moves the needle so that the lowest place of one tip is a little above or below the wall.
   bool let_graze(WallCase& of) {

@@ -110,7 +110,9 @@ kernels::WallPlane Walls::plane_at(const Clock& clock, const Wall& wall, Time ti
   out.place = wall.edge.place(since_start);
   if (wall.edge.is_at_rest(since_start)) return out;
   out.velocity = wall.edge.velocity();
-  out.halt = to_double(wall.edge.halt_time() - since_start);
+  // Of an infinite time the difference would be no number.
+  const DoubleDouble& halt = wall.edge.halt_time();
+  if (std::isfinite(halt.hi)) out.halt = to_double(halt - since_start);
   out.halt_place = wall.edge.stop();
   return out;
 }
