@@ -106,8 +106,8 @@ double asymptotic_ratio(const Gas& gas);
 /// The k at which c = 1 for every epsilon < 1 (beta = -1).
 double equipartition_k();
 
-/// What the needles of one species do to resting hard walls: per needle and time, for each wall of
-/// an axis. [1 / time], [energy / L]
+/// What the needles of one species do to hard walls: per needle and time, for each wall of an axis.
+/// [1 / time], [energy / L]
 struct WallRates {
   double hits = 0;   ///< of either wall
   double force = 0;  ///< of elastic hits; (1 + epsilon) / 2 of that where they are not
@@ -116,9 +116,12 @@ struct WallRates {
 /// For a box whose axes have walls at both edges, or none. Exact, at every density, where no
 /// gravity acts, for Gaussian velocities and positions and directors of which nothing is known but
 /// that both tips are inside: in elastic equilibrium and in a state that is drawn. Edges with walls
-/// must be at least the length.
+/// must be at least the length. Of walls that move towards the gas at the speed `advance`, or away
+/// from it, as long as they have changed nothing but what they hit: at the start of a drawn state.
+/// [L / time]
 std::array<WallRates, 3> wall_rates(const Species& species, const std::array<double, 3>& box,
-                                    const std::array<bool, 3>& walled, Temperatures now);
+                                    const std::array<bool, 3>& walled, Temperatures now,
+                                    double advance = 0);
 
 /// Collisions of needles of species a with those of species b between two walls along one axis
 /// alone, in multiples of those in a periodic box of the same volume: exact for the states of

@@ -185,17 +185,44 @@ std::string wall_text(const Scene::Wall& wall) {
                             motion.frequency, motion.phase);
 }
 
+// Of densities.
+const char* unit_of_volume(const Composition& composition) {
+  if (composition.longest() == 1) return "unit of volume";
+  const bool differ = composition.is_mixture() || composition.has_own_sizes();
+  return differ ? "cube of the longest length" : "cube of their length";
+}
+
+// How dense the gas becomes, and when walls have no more room for it.
+std::string motion_line(const runs::Explanation& e) {
+  if (!e.motion || !std::isfinite(e.motion->time)) return {};
+  const runs::ExplainedMotion& motion = *e.motion;
+  const Composition composition = e.scene.composition();
+  const double length = composition.longest();
+  std::string text = fmt::format(
+      "at time {:.6g}: {:.4g} needles per {}", motion.time,
+      static_cast<double>(e.scene.needles.count) * (length * length * length) / motion.volume,
+      unit_of_volume(composition));
+  if (composition.has_width())
+    text +=
+        fmt::format(", {:.4g} of the box taken up", composition.packing_fraction(motion.volume));
+  if (motion.meeting && motion.meeting->time == motion.time)
+    text += fmt::format("; then the walls along {} leave no more room, and the run ends",
+                        "xyz"[motion.meeting->axis]);
+  return line("", text);
+}
+
 std::string wall_lines(const runs::Explanation& e) {
   std::string text;
   for (const runs::ExplainedWall& wall : e.walls) {
     std::string about = fmt::format("{}-{}: {}", name_of_axis(wall.side), name_of_side(wall.side),
                                     wall_text(e.scene.walls[wall.side.entry]));
+    if (std::isfinite(wall.stop)) about += fmt::format(", at time {:.6g}", wall.stop);
     if (std::isfinite(wall.hits))
       about += fmt::format("; at the start {:.4g} hits per time", wall.hits);
     if (std::isfinite(wall.force)) about += fmt::format(", mean force {:.4g}", wall.force);
     text += line(text.empty() ? "walls" : "", about);
   }
-  return text;
+  return text + motion_line(e);
 }
 
 std::string gravity_lines(const runs::Explanation& e) {
@@ -304,9 +331,18 @@ Json walls_json(const runs::Explanation& e) {
                    {"epsilon", given.temperature ? Json() : Json(given.epsilon)},
                    {"temperature", optional_number(given.temperature)},
                    {"motion", std::move(motion)},
+                   {"stop_time", number(wall.stop)},
                    {"hits_per_time", number(wall.hits)},
                    {"force", number(wall.force)}});
   }
+  return out;
+}
+
+Json motion_json(const runs::Explanation& e) {
+  const auto& [meeting, time, volume] = *e.motion;
+  Json out{{"meet", nullptr}, {"time", number(time)}, {"volume", number(volume)}};
+  if (meeting)
+    out["meet"] = {{"axis", std::string(1, "xyz"[meeting->axis])}, {"time", number(meeting->time)}};
   return out;
 }
 
@@ -441,6 +477,7 @@ std::string json_of(const runs::Explanation& e) {
     json["elastic_strikes"] = scene.collisions.elastic_strikes;
   }
   if (!e.walls.empty()) json["walls"] = walls_json(e);
+  if (e.motion) json["moving_walls"] = motion_json(e);
   if (!e.gravity.empty()) {
     json["gravity"] = scene.forces.gravity;
     json["falling"] = gravity_json(e);
@@ -482,12 +519,8 @@ std::string text_of(const runs::Explanation& e) {
                  fmt::format("{}, {}", scene.needles.count, runs::shape_text(composition[0])));
   }
   if (!scene.species.empty()) text += species_lines(e, composition);
-  const bool differ = composition.is_mixture() || composition.has_own_sizes();
-  const char* volume = composition.longest() == 1 ? "unit of volume"
-                       : differ                   ? "cube of the longest length"
-                                                  : "cube of their length";
   text += line("box", fmt::format("{:g} x {:g} x {:g}, {:.4g} needles per {}", box[0], box[1],
-                                  box[2], e.density, volume));
+                                  box[2], e.density, unit_of_volume(composition)));
   if (composition.has_width()) {
     const bool overlap = std::ranges::any_of(composition.species(), &Species::overlap);
     text += line("packing", fmt::format("{:.4g} of the box is taken up by rods{}",

@@ -71,6 +71,14 @@ void require_known_species(State& state, const io::Material& material, const std
   }
 }
 
+// Other formats have no place for a box that walls have moved, or readers that take it to begin at
+// 0: positions count from the low edges.
+void count_from_low_edges(State& state) {
+  for (std::array<double, 3>& position : state.position)
+    for (std::size_t axis = 0; axis < 3; ++axis) position[axis] -= state.low[axis];
+  state.low = {};
+}
+
 void export_frames(const ExportArguments& arguments, const io::ExportFormat& format) {
   const auto file = read_file(arguments.from, FileKind::h5md,
                               [&] { return std::make_unique<io::FrameFile>(arguments.from); });
@@ -83,6 +91,7 @@ void export_frames(const ExportArguments& arguments, const io::ExportFormat& for
   for (std::size_t i = range.begin; i < range.end; ++i) {
     State state = file->read(i);
     require_known_species(state, material, arguments.from);
+    count_from_low_edges(state);
     writer->add({i, file->time(i), std::move(state)});
   }
   writer->publish();

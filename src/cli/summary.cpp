@@ -400,8 +400,9 @@ std::string summary_of(const Report& report) {
   const Totals& last = report.result.last;
   const auto& box = scene.needles.box;
   std::string text = scene.title.empty() ? "" : scene.title + "\n";
-  text += line("gas", "{} needles in a box of {:g} x {:g} x {:g}, {}", scene.needles.count, box[0],
-               box[1], box[2], report.simulation.effects());
+  text += line("gas", "{} needles in a box of {:g} x {:g} x {:g}{}, {}", scene.needles.count,
+               box[0], box[1], box[2], scene.has_moving_walls() ? " at the start" : "",
+               report.simulation.effects());
   if (const std::string placement = report.simulation.placement(); !placement.empty())
     text += line("start", "{}", placement);
   text += size_lines(report);

@@ -53,10 +53,8 @@ void append(std::vector<Description>& list, const std::vector<Description>& more
 
 // Over the runs of a sweep. `row` is the shape of a row.
 std::vector<Description> means(const std::string& path, const std::string& row) {
-  return {{path + "/mean", "Mean over the runs of the point, in the unit of the quantity", none,
-           "[samples]" + row},
-          {path + "/standard_error", "Standard error of the mean, in the unit of the quantity",
-           none, "[samples]" + row}};
+  return {{path + "/mean", "Mean over the runs of the point", none, "[samples]" + row},
+          {path + "/standard_error", "Standard error of the mean", none, "[samples]" + row}};
 }
 
 // The paths of the objects in the file that `pattern` fits.
@@ -350,10 +348,8 @@ std::vector<Description> sweep_summary_descriptions() {
       {"/results/budget_*",
        "Energy per needle that this effect has put in since the start; negative: taken out", energy,
        none},
-      {"/results/*/mean", "Mean over the runs of each point, in the unit of the quantity", none,
-       "[points]"},
-      {"/results/*/standard_error", "Standard error of the mean, in the unit of the quantity", none,
-       "[points]"},
+      {"/results/*/mean", "Mean over the runs of each point", none, "[points]"},
+      {"/results/*/standard_error", "Standard error of the mean", none, "[points]"},
 
       {"/series", "Quantities as functions of time, one group for each point of the grid", none,
        none},

@@ -1,5 +1,6 @@
 #include "src/runs/explanation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -89,7 +90,42 @@ std::vector<Hitting> hitting_walls(const LoadedScene& loaded) {
   return out;
 }
 
-// Exact where no gravity acts, for a wall at rest and a state that is drawn.
+// When a wall with a velocity comes to rest; NaN where it does not.
+double stop_of(const std::optional<MovingEdges>& moving, const Scene::WallSide& side) {
+  if (!moving) return undefined;
+  const double halt = to_double(moving->of(side.axis, side.is_high).halt_time());
+  return std::isfinite(halt) ? halt : undefined;
+}
+
+// How fast a wall comes towards the gas. [L / time]
+double advance_of(const Scene& scene, const Scene::WallSide& side) {
+  const auto& motion = scene.walls[side.entry].motion;
+  const double velocity = motion ? motion->velocity.value_or(0) : 0;
+  return side.is_high ? -velocity : velocity;
+}
+
+std::optional<ExplainedMotion> motion_of(const Scene& scene) {
+  const auto moving = moving_edges_of(scene, scene.needles.box);
+  if (!moving) return {};
+  ExplainedMotion out{.meeting = meeting_of(scene, scene.needles.box), .time = undefined};
+  if (out.meeting) out.time = out.meeting->time;
+  if (const auto& end = scene.until.time) out.time = std::fmin(out.time, *end);
+  if (std::isnan(out.time)) {
+    // A wall that never stops leaves no last moment.
+    out.time = 0;
+    for (const Scene::WallSide& side : scene.wall_sides()) {
+      if (advance_of(scene, side) == 0) continue;
+      const double stop = stop_of(moving, side);
+      if (std::isnan(stop)) return ExplainedMotion{.time = undefined, .volume = undefined};
+      out.time = std::max(out.time, stop);
+    }
+  }
+  const Vector edges = moving->distances(out.time);
+  out.volume = edges[0] * edges[1] * edges[2];
+  return out;
+}
+
+// Exact where no gravity acts, for walls that do not shake and a state that is drawn.
 std::vector<ExplainedWall> walls_of(const LoadedScene& loaded) {
   const Scene& scene = loaded.scene;
   const std::vector<Hitting> bodies =
@@ -97,12 +133,14 @@ std::vector<ExplainedWall> walls_of(const LoadedScene& loaded) {
   std::array<bool, 3> walled{};
   bool is_known =
       !bodies.empty() && !loaded.initial && scene.forces.gravity == std::array<double, 3>{};
-  for (const Scene::Wall& wall : scene.walls) is_known = is_known && !wall.motion;
+  for (const Scene::Wall& wall : scene.walls) is_known = is_known && !shakes(wall);
+  const auto moving = moving_edges_of(scene, scene.needles.box);
   std::vector<ExplainedWall> out;
   for (const Scene::WallSide& side : scene.wall_sides()) {
     walled[side.axis] = true;
     const double start = is_known ? 0 : undefined;
-    out.push_back({side, start, scene.walls[side.entry].temperature ? undefined : start});
+    out.push_back({side, start, scene.walls[side.entry].temperature ? undefined : start,
+                   stop_of(moving, side)});
   }
   if (!is_known || out.empty()) return out;
   for (const auto& [body, count, now] : bodies) {
@@ -111,8 +149,11 @@ std::vector<ExplainedWall> walls_of(const LoadedScene& loaded) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (walled[axis]) room[axis] -= body.diameter;
     }
-    const auto rates = theory::wall_rates(body, room, walled, now);
+    const auto resting = theory::wall_rates(body, room, walled, now);
     for (ExplainedWall& wall : out) {
+      const double advance = advance_of(scene, wall.side);
+      const auto rates =
+          advance == 0 ? resting : theory::wall_rates(body, room, walled, now, advance);
       const double epsilon = scene.walls[wall.side.entry].epsilon;
       wall.hits += count * rates[wall.side.axis].hits;
       wall.force += count * 0.5 * (1 + epsilon) * rates[wall.side.axis].force;
@@ -186,6 +227,7 @@ Explanation::Explanation(const LoadedScene& loaded)
       rates(rates_of(loaded)),
       counted_rates(rates.empty() ? rates : counted_rates_by_pair(loaded)),
       walls(walls_of(loaded)),
+      motion(motion_of(scene)),
       gravity(gravity_of(loaded)),
       kick_power(kick_power_of(scene)),
       steady(steady_of(scene)),

@@ -19,6 +19,15 @@ struct ExplainedWall {
   Scene::WallSide side;
   double hits = 0;   ///< of all needles [1 / time]
   double force = 0;  ///< mean, of all needles [energy / L]
+  double stop = 0;   ///< when a wall with a velocity comes to rest; NaN where it does not [time]
+};
+
+/// What walls with a velocity come to. The run ends no later than `time`; NaN where nothing says
+/// when.
+struct ExplainedMotion {
+  std::optional<Meeting> meeting;  ///< where nothing stops them before
+  double time = 0;                 ///< until.time, when they meet, or when the last one has stopped
+  double volume = 0;               ///< of the box then [L^3]
 };
 
 /// What gravity does along an axis, in the steady state: over a floor without a ceiling, or along a
@@ -48,6 +57,7 @@ struct Explanation {
   std::vector<double> rates;
   std::vector<double> counted_rates;  ///< the same, as runs::counted_rates_by_pair()
   std::vector<ExplainedWall> walls;
+  std::optional<ExplainedMotion> motion;      ///< where walls have a velocity
   std::vector<ExplainedGravity> gravity;      ///< along the axes along which there is some
   double kick_power;                          ///< energy per needle and time that kicks give
   std::optional<theory::SteadyShear> steady;  ///< of uniform shear, at low density

@@ -117,7 +117,8 @@ Totals totals_of(const State& state, const Scene& scene) {
     totals.t_rot += body.inertia * square(state.angular_velocity[i]) / (2 * count);
     for (int axis = 0; axis < 3; ++axis) {
       totals.momentum[axis] += body.mass * velocity[axis];
-      if (!periodic[axis]) fall -= body.mass * gravity[axis] * state.position[i][axis];
+      if (!periodic[axis])
+        fall -= body.mass * gravity[axis] * (state.position[i][axis] - state.low[axis]);
     }
   }
   const double turning = composition.turning_share();

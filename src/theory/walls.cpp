@@ -91,9 +91,23 @@ Room room_of(double first, double second, double gap, const auto& speed) {
 
 }  // namespace
 
+// Of tips whose normal velocity has the variance energy / mass, for a density of 1, on a wall that
+// moves towards them: with V its speed and s = V / sqrt(2 energy / mass), hits sqrt(energy / (2 pi
+// mass)) (exp(-s^2) + sqrt(pi) s (1 + erf s)), and twice the mean of mass V_n^2 / 2 over V_n < 0.
+static WallRates onto(double advance, double energy, double mass) {
+  const double thermal = std::sqrt(energy / (2 * std::numbers::pi * mass));
+  if (advance == 0) return {thermal, energy};
+  const double s = advance / std::sqrt(2 * energy / mass), slow = std::exp(-s * s);
+  const double ahead = 1 + std::erf(s);
+  return {thermal * slow + 0.5 * advance * ahead,
+          (energy + mass * advance * advance) * ahead + 2 * mass * thermal * advance * slow};
+}
+
 std::array<WallRates, 3> wall_rates(const Species& species, const std::array<double, 3>& box,
-                                    const std::array<bool, 3>& walled, Temperatures now) {
+                                    const std::array<bool, 3>& walled, Temperatures now,
+                                    double advance) {
   require_valid(now);
+  require(std::isfinite(advance), "advance", advance, "a finite number");
   for (const double edge : box) require_positive("box", edge);
   require_positive("k", species.k);
   // Over an octant of directors, on which components are not negative: the room for the centre
@@ -110,10 +124,12 @@ std::array<WallRates, 3> wall_rates(const Species& species, const std::array<dou
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (!walled[axis]) continue;
       const double others = width[(axis + 1) % 3] * width[(axis + 2) % 3];
-      const double turn = 0.5 * species.k * (1 - u[axis] * u[axis]);  // L^2 / (4 I) (1 - u_n^2)
-      const double energy = now.t_tr + now.t_rot * turn;              // m times the variance
-      out[axis].hits += weight * others * std::sqrt(energy / (2 * std::numbers::pi * species.mass));
-      out[axis].force += weight * others * energy / (1 + turn);
+      // L^2 / (4 I) (1 - u_n^2)
+      const double turn = species.turns() ? 0.5 * species.k * (1 - u[axis] * u[axis]) : 0;
+      const double energy = now.t_tr + now.t_rot * turn;  // m times the variance
+      const auto [hits, force] = onto(advance, energy, species.mass);
+      out[axis].hits += weight * others * hits;
+      out[axis].force += weight * others * force / (1 + turn);
     }
   };
   at_nodes(0, 1, [&](double z, double weight_z) {

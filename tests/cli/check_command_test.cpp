@@ -12,6 +12,19 @@ namespace {
 
 using CheckCommand = ProgramTest;
 
+const std::string piston = R"(needles = { count = 300, box = [10, 10, 2.5] }
+until.collisions_per_needle = 10
+[[walls]]
+axis = "z"
+side = "low"
+epsilon = 0.5
+motion = { velocity = 1 }
+[[walls]]
+axis = "z"
+side = "high"
+motion = { velocity = 0.5, stop_at = 3 }
+)";
+
 TEST_F(CheckCommand, ExplainsAScene) {
   EXPECT_TRUE(contains(output_of("check small.toml --set collisions.tc_relative=1e-3"),
                        {"Small gas\n", "50, k = 6, uniform rods", "elastic (epsilon = 1)",
@@ -47,7 +60,50 @@ walls = [{ axis = "z", side = "both" }]
   auto object = run("check small.toml --json").json();
   object.update(run("check driven.toml --json").json());
   object.update(run("check small.toml --json --set needles.diameter=0.1").json());
+  write("piston.toml", piston);
+  object.update(run("check piston.toml --json").json());
   EXPECT_EQ(keys_of(object), sorted(described_keys("json.md")["Scene explained by check"]));
+}
+
+// n = 300 / (100 (2.5 - 1/2)), and the low wall comes towards the gas at the thermal speed. At time
+// 1 the high one stops at 3; at time 2 one length is left of the box.
+TEST_F(CheckCommand, TellsWhatPistonsDoAtTheStartAndWhenTheyMeet) {
+  write("piston.toml", piston);
+  auto json = json_of("check piston.toml --json");
+  EXPECT_NEAR(json["walls"][0]["hits_per_time"].get<double>(), 150 * 1.29851, 1e-2);
+  EXPECT_NEAR(json["walls"][0]["force"].get<double>(), 0.75 * 150 * 2.40987, 1e-2);
+  EXPECT_NEAR(json["walls"][1]["force"].get<double>(), 150 * 0.60438, 1e-2);
+  EXPECT_TRUE(json["walls"][0]["stop_time"].is_null());
+  EXPECT_EQ(json["walls"][1]["stop_time"], 1);
+  EXPECT_EQ(json["moving_walls"]["meet"], nlohmann::json({{"axis", "z"}, {"time", 2}}));
+  EXPECT_EQ(json["moving_walls"]["time"], 2);
+  EXPECT_NEAR(json["moving_walls"]["volume"].get<double>(), 100, 1e-10);
+  EXPECT_TRUE(json["expected"].is_null());
+  EXPECT_TRUE(contains(output_of("check piston.toml"),
+                       {"moves at 1 along z; at the start", "until it stops at 3, at time 1",
+                        "at time 2: 3 needles per unit of volume; then the walls along z leave no "
+                        "more room, and the run ends"}));
+  json = json_of("check piston.toml --json --set until.time=1.5");
+  EXPECT_EQ(json["moving_walls"]["time"], 1.5);
+  EXPECT_NEAR(json["moving_walls"]["volume"].get<double>(), 150, 1e-10);
+  EXPECT_TRUE(contains(output_of("check piston.toml --set until.time=1.5"),
+                       {"at time 1.5: 2 needles per unit of volume\n"}));
+  // Without an end nothing is said of it.
+  const std::string apart = "check piston.toml --json --set walls.z-low.motion.velocity=-1";
+  EXPECT_TRUE(json_of(apart)["moving_walls"]["time"].is_null());
+}
+
+// A thermal wall that slides is hit as others are, and by how much is drawn.
+TEST_F(CheckCommand, KnowsTheHitsOnWallsThatSlide) {
+  write("couette.toml", R"(needles = { count = 1000, box = [10, 10, 2] }
+until.time = 1
+walls = [{ axis = "z", side = "both", temperature = 1, motion = { tangential = [1, 0] } }]
+)");
+  const auto json = json_of("check couette.toml --json");
+  EXPECT_NEAR(json["walls"][0]["hits_per_time"].get<double>(), 454.6, 0.05);
+  EXPECT_TRUE(json["walls"][0]["force"].is_null());
+  EXPECT_EQ(json["walls"][0]["motion"], nlohmann::json({{"tangential", {1, 0}}}));
+  EXPECT_FALSE(json.contains("moving_walls"));
 }
 
 TEST_F(CheckCommand, ExplainsWallsAndDriving) {

@@ -189,11 +189,18 @@ TEST_F(Dynamo, WallsAndGravityAreWrittenAndReadAgain) {
                 ": an open side along y: expected walls at both ends, as DynamO has no boundary "
                 "that is open along this axis and periodic along the others");
   Scene::Wall moving = z;
-  moving.motion = Scene::WallMotion{.amplitude = 0.1};
-  EXPECT_EQ(message_of<InputError>([&] { written({moving}); }),
-            path +
-                ": the wall z-low moves: expected walls at rest, as in a configuration of "
-                "DynamO");
+  const auto complaint = [&](const std::string& does) {
+    return path + ": the wall z-low " + does +
+           ": expected walls at rest, as in a configuration of DynamO";
+  };
+  for (const Scene::WallMotion& motion :
+       {Scene::WallMotion{.amplitude = 0.1}, Scene::WallMotion{.velocity = -1}}) {
+    moving.motion = motion;
+    EXPECT_EQ(message_of<InputError>([&] { written({moving}); }), complaint("moves"));
+  }
+  moving.motion = Scene::WallMotion{.tangential = std::array<double, 2>{0, 1}};
+  moving.temperature = 1;
+  EXPECT_EQ(message_of<InputError>([&] { written({moving}); }), complaint("slides"));
 }
 
 TEST_F(Dynamo, WhatNeedlesDoNotHaveIsNamed) {

@@ -42,7 +42,15 @@ output.observables = ["wall_profiles", "centre_of_mass"]
 driving.kicks = { every = 0.3, translational = 1, rotational = 1 }
 driving.andersen = { rate = 1, temperature = 1 }
 walls = [{ axis = "z", side = "both", motion = { amplitude = 0.1, frequency = 1, phase = 0 } },
-         { axis = "x", side = "both" }]
+         { axis = "x", side = "low", temperature = 1 },
+         { axis = "x", side = "high", motion = { velocity = 0 } }]
+"""
+
+
+PISTON = """
+needles = { count = 30, box = 6, seed = 3 }
+until.time = 1
+walls = [{ axis = "z", side = "low", motion = { velocity = 1 } }, { axis = "z", side = "high" }]
 """
 
 
@@ -267,6 +275,7 @@ def main(program, source):
         problems += problems_of_examples(observables, "observables.md", folder)
         for name, scene in {"grid": SWEEP, "mixture": MIXTURE, "walled": WALLED, "rods": RODS,
                             "sliding": SLIDING, "channel": CHANNEL, "sheared": SHEARED,
+                            "piston": PISTON,
                             "differing": DIFFERING}.items():
             with open(os.path.join(folder, f"{name}.toml"), "w", encoding="utf-8") as file:
                 file.write(scene)
@@ -275,10 +284,12 @@ def main(program, source):
         run(["./needlework", "sweep", "grid.toml", "--out", "sweep", "--threads", "1", "--quiet"],
             folder)
         runs = rows_of(document, "Files of runs")
-        walls, of_gravity, of_flow, at_rest = [], [], rows_of(document, "Files of sheared gases"), []
+        walls, of_gravity, of_pistons, at_rest = [], [], [], []
+        of_flow = rows_of(document, "Files of sheared gases")
         for row in rows_of(document, "Files with walls"):
             (of_flow if row.paths[0].endswith(OF_FLOW) else
-             of_gravity if row.paths[0].endswith("/gravity") else walls).append(row)
+             of_gravity if row.paths[0].endswith("/gravity") else
+             of_pistons if row.paths[0].startswith("/particles/") else walls).append(row)
         for row in rows_of(observables, "Datasets"):
             (of_flow if row.paths[0].endswith(OF_FLOW) else at_rest).append(row)
         rods = rows_of(document, "Files of rods")
@@ -292,6 +303,7 @@ def main(program, source):
                 ("sliding.h5", rows_of(document, "Files with sliding contact"), runs),
                 ("walled.h5", walls + rows_of(observables, "Datasets of axes with walls"), runs),
                 ("channel.h5", of_gravity, walls + runs),
+                ("piston.h5", of_pistons, walls + runs),
                 ("sweep/summary.h5", rows_of(document, "Summaries of sweeps"), ()),
                 ("run.vtkhdf", rows_of(document, "Exports for ParaView and VTK"), ())]:
             with h5py.File(os.path.join(folder, name), "r") as file:

@@ -96,8 +96,8 @@ def sum_of_sweep(number):
         return f"| `/results/{number['name']}`, `{path}` | {number['meaning']} | group{unit} |\n"
     rows = f"`{type_in_file(number, '[samples]')}`"
     return (f"| `{path}` | {number['meaning']} | group{unit} |\n"
-            f"| `{path}/mean` | Mean over the runs of the point, in the unit of the quantity | {rows} |\n"
-            f"| `{path}/standard_error` | Standard error of the mean, in the unit of the quantity "
+            f"| `{path}/mean` | Mean over the runs of the point | {rows} |\n"
+            f"| `{path}/standard_error` | Standard error of the mean "
             f"| {rows} |\n")
 
 

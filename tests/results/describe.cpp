@@ -49,6 +49,10 @@ Scene with_everything() {
                    {.name = "rods", .count = 2, .length = 1, .diameter = 0.1}};
   scene.walls = {{.axis = "z", .side = "both"}};
   scene.walls[0].motion = Scene::WallMotion{};
+  scene.walls.push_back({.axis = "y", .side = "low", .temperature = 1.0});
+  // As a piston has it, but edges of the box stay.
+  scene.walls.push_back({.axis = "y", .side = "high"});
+  scene.walls.back().motion = Scene::WallMotion{.velocity = 0};
   scene.forces.gravity = {1, 0, 0};
   scene.driving.andersen = Scene::Andersen{};
   scene.driving.kicks = Scene::Kicks{};

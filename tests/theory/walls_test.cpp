@@ -34,6 +34,35 @@ TEST(WallRates, AreThoseOfAnIdealGas) {
   EXPECT_NEAR(rates[2].hits, sum / (1.5 * std::sqrt(2 * std::numbers::pi)), 1e-8);
 }
 
+// With T = m = 1 and n = 1 / (H - L/2), of needles with k = 6 sampled by another program.
+TEST(WallRates, OfAWallThatMovesAreThoseOfASampledGas) {
+  const double room = 1.5;
+  for (const auto& [advance, force] : {std::array{1.0, 2.40987}, {-0.5, 0.60438}, {3.0, 8.81634}}) {
+    const auto rates = wall_rates(needles(6), {7, 8, 2}, along_z, {1, 1}, advance);
+    EXPECT_NEAR(room * rates[2].force, force, 2e-5) << advance;
+    if (advance == 1) {
+      EXPECT_NEAR(room * rates[2].hits, 1.29851, 1e-5);
+    }
+  }
+  Species spheres = needles(6);
+  spheres.length = 0;
+  for (const auto& [advance, force] : {std::array{1.0, 3.84932}, {-0.5, 0.41928}, {3.0, 19.9996}}) {
+    const auto rates = wall_rates(spheres, {7, 8, 2}, along_z, {1, 1}, advance);
+    EXPECT_NEAR(2 * rates[2].force, force, 1e-4) << advance;
+  }
+  EXPECT_NEAR(2 * wall_rates(spheres, {7, 8, 2}, along_z, {1, 0})[2].force, 1, 1e-12);
+  // Bodies at rest are swept up, or left.
+  const auto swept = wall_rates(spheres, {7, 8, 2}, along_z, {0, 0}, 3);
+  EXPECT_NEAR(swept[2].hits, 3 / 2.0, 1e-14);
+  EXPECT_NEAR(swept[2].force, 2 * 9 / 2.0, 1e-13);
+  EXPECT_EQ(wall_rates(spheres, {7, 8, 2}, along_z, {0, 0}, -3)[2].hits, 0);
+  // A wall that hardly moves is one at rest.
+  const auto resting = wall_rates(needles(6), {7, 8, 2}, along_z, {2, 1});
+  const auto slow = wall_rates(needles(6), {7, 8, 2}, along_z, {2, 1}, 1e-9);
+  EXPECT_NEAR(slow[2].hits, resting[2].hits, 2e-9);
+  EXPECT_NEAR(slow[2].force, resting[2].force, 4e-9);
+}
+
 TEST(WallRates, ScaleWithLengthMassAndTemperature) {
   Species other = needles(3);
   other.length = 2;

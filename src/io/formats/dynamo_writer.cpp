@@ -184,6 +184,7 @@ std::string DynamoWriter::locals(const Vector& box) const {
   const bool one_size = std::ranges::all_of(composition_.species(), [&](const Species& each) {
     return each.diameter == composition_[0].diameter;
   });
+  constexpr std::array<double, 2> no_slip{};
   std::string text = "    <Locals>\n";
   for (const Scene::Wall& wall : walls_) {
     const auto axis = static_cast<std::size_t>(wall.axis[0] - 'x');
@@ -191,11 +192,14 @@ std::string DynamoWriter::locals(const Vector& box) const {
     Vector normal{}, origin{};
     normal[axis] = high ? -1 : 1;
     origin[axis] = (high ? 0.5 : -0.5) * box[axis];
-    if (wall.motion && wall.motion->amplitude > 0) {
+    const bool moves =
+        wall.motion && (wall.motion->amplitude > 0 || wall.motion->velocity.value_or(0) != 0);
+    const bool slides = wall.motion && wall.motion->tangential.value_or(no_slip) != no_slip;
+    if (moves || slides) {
       throw InputError(
-          fmt::format("{}: the wall {}-{} moves: expected walls at rest, as in a "
+          fmt::format("{}: the wall {}-{} {}: expected walls at rest, as in a "
                       "configuration of DynamO",
-                      path_, wall.axis, wall.side));
+                      path_, wall.axis, wall.side, moves ? "moves" : "slides"));
     }
     const std::string temperature =
         wall.temperature ? fmt::format(" Temperature=\"{}\"", *wall.temperature) : "";

@@ -70,6 +70,14 @@ function wallFact({ axis, side, epsilon, temperature, motion }) {
     const phase = motion.phase ? ` + ${numberText(motion.phase)}` : "";
     parts.push(`moves by ${numberText(motion.amplitude)} sin(2π ${numberText(motion.frequency)} t${phase})`);
   }
+  if (motion?.velocity) {
+    const stop = motion.stop_at === undefined ? "" : ` until it stops at ${numberText(motion.stop_at)}`;
+    parts.push(`moves at ${numberText(motion.velocity)} along ${axis}${stop}`);
+  }
+  if (motion?.tangential) {
+    const others = ["x", "y", "z"].filter((other) => other !== axis);
+    parts.push(`slides at ${motion.tangential.map((speed, n) => `${numberText(speed)} along ${others[n]}`).join(", ")}`);
+  }
   return [`Wall at ${axis} ${side}`, parts.join(", ")];
 }
 
@@ -162,17 +170,18 @@ export function factsOfRun({ scene, parameters, frames }) {
   const facts = [["Needles", frames.needles_in_file]];
   if (scene) {
     const volume = frames.box.reduce((a, b) => a * b, 1);
+    const when = scene.walls.some(({ motion }) => motion?.velocity) ? "at the start" : "";
     facts.push(
-      ["Box", frames.box.map((edge) => numberText(edge)).join(" × ")],
+      ["Box", frames.box.map((edge) => numberText(edge)).join(" × "), when],
       ["Boundaries", boundaryText(frames)],
       ...scene.walls.map(wallFact),
       ["Gravity", gravityText(scene.gravity)],
       ...drivingFacts(scene.driving),
-      ["Density n L³", openSides(frames).length || scene.packing_fraction !== null ? null : (frames.needles_in_file * scene.length ** 3) / volume],
+      ["Density n L³", openSides(frames).length || scene.packing_fraction !== null ? null : (frames.needles_in_file * scene.length ** 3) / volume, when],
       ["Restitution ε, β", `${numberText(scene.epsilon)}, ${numberText(scene.beta)}`],
       ...scene.pairs.map(({ name, meet, epsilon, beta }) => [`Restitution of ${name}`, meet === false ? "none: they pass through each other" : `${numberText(epsilon)}, ${numberText(beta)}`]),
       ...(scene.species.length ? scene.species.map(speciesFact) : ofOneSpecies(scene)),
-      ["Packing fraction", scene.packing_fraction],
+      ["Packing fraction", scene.packing_fraction, when],
       ["Initial state", scene.initial_file || (scene.species.length ? "drawn" : `drawn, T_tr = ${numberText(scene.t_tr)}, T_rot = ${numberText(scene.t_rot)}`)],
       ["Contact-time rule", scene.sliding_below === null ? contactTime(scene) : null],
       ["Sliding contact", slidingText(scene)],

@@ -246,7 +246,7 @@ function curvesOfRow(spec, group, valuesOf) {
     const parts = dataset.shape.length > 2 ? axesOf(group) : [""];
     return parts.map((axis, n) => {
       const part = partOf(values, n, parts, reduced);
-      const x = placesOf(spec, group, part.length, n);
+      const x = placesOf(spec, group, part.length, n, valuesOf);
       return {
         name: `${text} ${axis}`.trim(), x, y: ordinates(spec, group, part), colour: number * parts.length + n,
         borders: spec.histogram && bordersOf(spec, group, x), points: Boolean(spec.places),
@@ -269,10 +269,12 @@ function partOf(values, n, parts, reduced) {
   return Float64Array.from({ length: size / width }, (_, place) => of([...part.subarray(place * width, (place + 1) * width)], axis));
 }
 
-function placesOf(spec, group, length, n) {
+// Where walls with a velocity move the box, places have a row for each sample.
+function placesOf(spec, group, length, n, valuesOf) {
   if (spec.borders) return middles(numbers(group.datasets[spec.borders]));
   if (spec.places) {
-    const places = numbers(group.datasets[spec.places]);
+    const dataset = group.datasets[spec.places];
+    const places = dataset.has_rows ? valuesOf(dataset) : numbers(dataset);
     return places.length === length ? places : places.subarray(n * length, (n + 1) * length);
   }
   return Float64Array.from({ length }, (_, k) => k + spec.first);

@@ -140,10 +140,13 @@ function cellsOf({ groups, count }) {
 function pressureOfRods({ groups, frames, count }) {
   const { datasets, time } = groups.rods;
   const { t, of } = totals(groups);
-  const volume = frames.box.reduce((product, edge) => product * edge, 1);
+  const start = frames.box.reduce((product, edge) => product * edge, 1);
+  // Walls with a velocity change the volume, by which rods are packed.
+  const packed = datasets.packing_fraction;
+  const volumes = packed.has_rows ? column(packed).map((share, n, all) => (start * all[0]) / share) : t.map(() => start);
   return [
     { name: "pressure", x: numbers(time), y: column(datasets.pressure), colour: 0, points: true },
-    { name: "ideal gas, N T_tr / V", x: t, y: of("t_tr").map((t_tr) => (count * t_tr) / volume), colour: -1, dashed: true },
+    { name: "ideal gas, N T_tr / V", x: t, y: of("t_tr").map((t_tr, n) => (count * t_tr) / volumes[n]), colour: -1, dashed: true },
   ];
 }
 

@@ -114,7 +114,7 @@ export const wallTimelines = [
   },
   {
     group: "centre_of_mass", title: "Centre of mass", y: "length", log: "x", curves: centreOfMass,
-    caption: "Along each axis with walls, from the low edge of the box.",
+    caption: "Along each axis with walls, from where the low edge of the box is at the start.",
   },
   {
     group: "walls", title: "Pressure by phase", x: "phase / 2π", y: "energy / volume", log: "",
