@@ -68,7 +68,8 @@ class Run {
   std::optional<Collisionless> collisionless() const;
   /// Whether walls with a velocity have pressed bodies together so that, since it was asked so many
   /// events ago, each has flown a small part of its size only, and the walls have moved by next to
-  /// nothing: the last collision of all would never come. To be asked again and again.
+  /// nothing: the last collision of all would never come. Or bodies have become so fast thereby
+  /// that the clock does not resolve their contacts. To be asked again and again.
   bool is_jammed();
   bool is_quiet() const { return windows.are_quiet(gas.size()); }
   /// How a run ends that has no further event: since nothing can happen any more. If needles still

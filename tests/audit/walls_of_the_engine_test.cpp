@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/support/audited.h"
+#include "tests/support/rods.h"
 #include "tests/support/wall.h"
 
 namespace needlework::test {
@@ -49,6 +50,24 @@ TEST(AuditOfWalls, FindsNothingWrongWithGravityAndMotion) {
   channel.forces.gravity = {2, -1, 0};
   channel.collisions = vibrated.collisions;
   for (const Scene& scene : {falling, vibrated, rising, channel}) expect_clean_gas(scene);
+}
+
+TEST(AuditOfWalls, FindsNothingWrongWithPistonsAndBelts) {
+  Scene needles = scene_of(60, 4);
+  needles.needles.box[2] = 8;
+  needles.walls = {piston("z", "low", 0.15, 1.2), piston("z", "high", -0.3, 5.0, 0.9)};
+  needles.collisions.epsilon = 0.9;
+  needles.collisions.tc = 1e-4;
+  Scene receding = scene_of(60, 4);
+  receding.walls = {piston("y", "low", -3, -2.0), piston("y", "high", 0.05, {}, 0.8)};
+  receding.forces.gravity = {0, 0.4, 0};
+  Scene rods = rods_and_spheres(25, 8, 2);
+  rods.walls = {piston("x", "both", 0.7), piston("z", "high", -0.3, 5.5)};
+  rods.walls.push_back(wall("z", "low"));
+  Scene belts = scene_of(60, 4);
+  belts.walls = {belt("z", "low", 1, 2, -1), belt("z", "high", 0.5, -1)};
+  belts.forces.gravity = {0, 0.5, 0};
+  for (const Scene& scene : {needles, receding, rods, belts}) expect_clean_gas(scene);
 }
 
 // Spheres that fly hundreds of edges away through an open side, where their places round more.

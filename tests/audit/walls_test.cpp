@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "needlework/error.h"
@@ -37,12 +38,24 @@ struct OneNeedle {
     return static_cast<double>(2 * std::numbers::pi_v<long double> * (turns - std::floor(turns))) +
            each.motion->phase;
   }
+  static bool travels(const Scene::Wall& each) { return each.motion && each.motion->velocity; }
+  static bool is_moving(const Scene::Wall& each, long double t) {
+    const auto& motion = *each.motion;
+    const long double place = each.side == "high" ? 4 : 0;
+    return !motion.stop_at || t < (*motion.stop_at - place) / *motion.velocity;
+  }
   double surface(const Scene::Wall& each, long double t) const {
     const double place = each.side == "high" ? 4 : 0;
+    if (travels(each)) {
+      const auto& motion = *each.motion;
+      if (motion.stop_at && !is_moving(each, t)) return *motion.stop_at;
+      return static_cast<double>(place + *motion.velocity * t);
+    }
     return each.motion ? place + each.motion->amplitude * std::sin(phase(each, t)) : place;
   }
   double surface_speed(const Scene::Wall& each, long double t) const {
     if (!each.motion) return 0;
+    if (travels(each)) return is_moving(each, t) ? *each.motion->velocity : 0;
     const double turn = 2 * std::numbers::pi * each.motion->frequency;
     return each.motion->amplitude * turn * std::cos(phase(each, t));
   }
@@ -169,13 +182,25 @@ OneNeedle vibrated() {
   return out;
 }
 
+// Between walls of which one stops soon, after a few hits, and one goes on.
+OneNeedle pressed() {
+  OneNeedle out = turning();
+  out.walls[0].epsilon = 0.9;
+  out.walls[0].motion = Scene::WallMotion{};
+  out.walls[0].motion->velocity = 0.3;
+  out.walls[0].motion->stop_at = 1;
+  out.walls[1].motion = Scene::WallMotion{};
+  out.walls[1].motion->velocity = -0.125;
+  return out;
+}
+
 TEST(AuditOfWalls, FindsNothingWrongWithNeedlesBetweenWalls) {
   OneNeedle straight;
   straight.walls = {wall("low"), wall("high")};
   OneNeedle falling = straight;
   falling.gravity = -1;
   falling.walls = {wall("low", 0.5)};
-  for (const OneNeedle& needle : {straight, falling, turning(), vibrated()}) {
+  for (const OneNeedle& needle : {straight, falling, turning(), vibrated(), pressed()}) {
     const int hits = needle.walls[0].epsilon == 0.5 ? 6 : 40;  // it comes to rest
     const Findings findings = made(needle, hits).audited();
     EXPECT_TRUE(findings.clean()) << listed(findings);
@@ -204,9 +229,10 @@ TEST(AuditOfWalls, SeesWhatIsPlanted) {
       {Kind::early, [&](Collision& c) { c.offset -= 1e-6, c.time -= 1e-6; }},
       {Kind::spurious, [&](Collision& c) { c.offset -= 0.1, c.time -= 0.1; }},
   };
-  for (const OneNeedle& needle : {turning(), vibrated()}) {
+  for (const auto& [needle, hits] :
+       {std::pair(turning(), 5), {vibrated(), 5}, {pressed(), 2}, {pressed(), 9}}) {
     for (std::size_t n = 0; n < all.size(); ++n) {
-      Case planted = made(needle, 5);
+      Case planted = made(needle, hits);
       Collision& last = planted.happenings.back().event;
       if (last.offset < 0.11 || last.offset > 0.99) continue;
       all[n].change(last);
@@ -227,6 +253,23 @@ TEST(AuditOfWalls, SeesHitsThatAreMissing) {
   Case between = made(turning(), 6);
   between.happenings.erase(between.happenings.begin() + 2);
   EXPECT_GT(between.audited().count(Kind::missed), 0u);
+}
+
+// A hit and a flight that are right for a wall that rests, goes on or moves another way.
+TEST(AuditOfWalls, SeesWallsThatMoveOtherwise) {
+  const auto is_seen = [](std::size_t wall, const std::function<void(Scene::WallMotion&)>& change) {
+    Case other = made(pressed(), 9);
+    EXPECT_TRUE(other.audited().clean());
+    change(*other.setup.walls[wall].motion);
+    return !other.audited().clean();
+  };
+  using Motion = Scene::WallMotion;
+  EXPECT_TRUE(is_seen(0, [](Motion& m) { m.velocity = 0.3 * (1 + 1e-9); }));
+  EXPECT_TRUE(is_seen(0, [](Motion& m) { m.stop_at = 1 + 1e-9; }));
+  EXPECT_TRUE(is_seen(0, [](Motion& m) { m.stop_at.reset(); }));
+  EXPECT_TRUE(is_seen(1, [](Motion& m) { m.velocity = -0.125 * (1 + 1e-9); }));
+  EXPECT_TRUE(is_seen(1, [](Motion& m) { m.velocity = 0.125; }));
+  EXPECT_TRUE(is_seen(1, [](Motion& m) { m.velocity.reset(); }));
 }
 
 TEST(AuditOfWalls, SeesHitsOutOfOrderAndOnOtherWalls) {

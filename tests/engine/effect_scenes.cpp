@@ -5,6 +5,7 @@
 
 #include "tests/support/rods.h"
 #include "tests/support/scenes.h"
+#include "tests/support/wall.h"
 
 namespace needlework::test {
 namespace {
@@ -109,6 +110,36 @@ Scene driven_rods() {
   return scene;
 }
 
+// Between walls that close in, of which one soon stops.
+Scene pistons() {
+  Scene scene = cooling(120, 5);
+  scene.needles.box[2] = 8;
+  scene.walls = {piston("z", "low", 0.5, 0.25, 0.9), piston("z", "high", -0.8)};
+  scene.forces.gravity = {0, 0, -1};
+  return scene;
+}
+
+// Beside walls that leave it, one of them faster than needles follow until it stops.
+Scene released() {
+  Scene scene = mixture();
+  scene.walls = {piston("y", "low", -0.1, {}, 0.8), piston("y", "high", 6, 10.0)};
+  return scene;
+}
+
+Scene pressed_rods() {
+  Scene scene = rods_and_spheres(50, 8, 3);
+  scene.needles.box[2] = 14;
+  scene.walls = {piston("z", "both", -0.7), piston("x", "low", 1.5), wall("x", "high", 0.9)};
+  return scene;
+}
+
+Scene belts() {
+  Scene scene = two_lengths(5);
+  scene.walls = {belt("z", "low", 1, 2, -0.5), belt("z", "high", 0.5, -1, 0)};
+  scene.forces.gravity = {0.8, -0.3, -0.5};
+  return scene;
+}
+
 Scene sheared(Scene scene, double rate, double offset) {
   scene.shear = Scene::Shear{.rate = rate, .offset = offset};
   return scene;
@@ -204,6 +235,11 @@ std::vector<EffectScene> effect_scenes() {
   channel.forces.gravity[1] = -1.5;  // along the periodic axis, beside a thermal wall
   add("chute", chute(), until_time(3));
 
+  add("pistons", pistons(), until_time(3));
+  add("released", released(), until_time(2.5));
+  add("pressed_rods", pressed_rods(), until_time(2));
+  add("belts", belts(), until_time(2));
+
   add("rods", rods_of(120, 5, 0.15), until_time(1.5));
   add("spheres", rods_of(150, 0, 0.3), until_time(1.5));
   add("rods_and_spheres", rods_and_spheres(60, 11), until_time(1.5));
@@ -246,6 +282,7 @@ std::vector<EffectScene> effect_scenes() {
       until_collisions(12));
   add("sliding_between_thermal_walls", sliding_between({.temperature = 1}, {.temperature = 1}),
       until_time(1.2));
+  add("sliding_on_a_piston", sliding_between(piston("z", "low", 0.5), {}), until_time(0.8));
   add("sliding_mixture_on_a_floor", sliding_mixture(sliding_between({}, {})), until_collisions(8))
       .needles.box = {5, 5, 5};
   return out;

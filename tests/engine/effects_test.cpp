@@ -45,6 +45,11 @@ void expect_same_sums(const Simulation& a, const Simulation& b) {
     EXPECT_EQ(walls[n].hits, other_walls[n].hits);
     EXPECT_EQ(walls[n].impulse, other_walls[n].impulse);
     EXPECT_EQ(walls[n].normal_impulse, other_walls[n].normal_impulse);
+    EXPECT_EQ(walls[n].impulse_x, other_walls[n].impulse_x);
+    EXPECT_EQ(walls[n].impulse_y, other_walls[n].impulse_y);
+    EXPECT_EQ(walls[n].impulse_z, other_walls[n].impulse_z);
+    EXPECT_EQ(walls[n].work, other_walls[n].work);
+    EXPECT_EQ(walls[n].place, other_walls[n].place);
   }
   const auto held = a.sliding_contacts(), other_held = b.sliding_contacts();
   ASSERT_EQ(held.has_value(), other_held.has_value());
@@ -127,6 +132,11 @@ TEST_P(EveryEffect, HasOneTrajectoryOnThreads) {
   large.needles.count *= 8;
   for (Species& each : large.species) each.count *= 8;
   for (double& edge : large.needles.box) edge *= 2;
+  for (Scene::Wall& wall : large.walls) {
+    if (!wall.motion || !wall.motion->stop_at) continue;
+    *wall.motion->stop_at *= 2;
+    *wall.motion->velocity *= 2;  // at the same time
+  }
   const Scene::Until end = GetParam().share_of_end(0.25);
   test::Followed truth(large);
   truth->advance(end);
@@ -161,8 +171,17 @@ std::vector<Scene> other_scenes(const Scene& scene) {
   add(scene.collisions.sliding, [](Scene& s) { s.collisions.sliding_below = 2e-3; });
   add(scene.collisions.elastic_strikes, [](Scene& s) { s.collisions.elastic_strikes = false; });
   add(!scene.walls.empty(), [](Scene& s) { s.walls[0].epsilon *= 0.99; });
-  add(!scene.walls.empty() && scene.walls[0].motion,
-      [](Scene& s) { s.walls[0].motion->frequency *= 1.01; });
+  if (!scene.walls.empty() && scene.walls[0].motion) {
+    const Scene::WallMotion& motion = *scene.walls[0].motion;
+    add(motion.amplitude > 0, [](Scene& s) { s.walls[0].motion->frequency *= 1.01; });
+    add(motion.velocity.has_value(), [](Scene& s) { *s.walls[0].motion->velocity *= 1.01; });
+    add(motion.velocity && !motion.stop_at, [](Scene& s) {
+      s.walls[0].motion->stop_at = *s.walls[0].motion->velocity > 0 ? 100 : -100;
+    });
+    add(motion.stop_at.has_value(), [](Scene& s) { *s.walls[0].motion->stop_at *= 1.01; });
+    add(motion.tangential.has_value(),
+        [](Scene& s) { (*s.walls[0].motion->tangential)[1] += 0.1; });
+  }
   add(scene.forces.gravity[2] != 0, [](Scene& s) { s.forces.gravity[2] *= 1.01; });
   add(scene.forces.gravity[0] != 0, [](Scene& s) { s.forces.gravity[0] *= 1.01; });
   add(scene.driving.kicks.has_value(), [](Scene& s) { s.driving.kicks->rotational += 1; });

@@ -16,11 +16,13 @@
 #include "src/engine/run.h"
 #include "tests/engine/effect_scenes.h"
 #include "tests/support/message_of.h"
+#include "tests/support/one_body.h"
 #include "tests/support/scenes.h"
 
 namespace needlework {
 namespace {
 
+using test::state_of;
 using test::until_time;
 
 struct Hit {
@@ -58,19 +60,6 @@ Scene one_needle(double edge) {
   scene.walls = {
       {.axis = "x", .side = "both"}, {.axis = "y", .side = "both"}, {.axis = "z", .side = "both"}};
   return scene;
-}
-
-State state_of(const Scene& scene, const std::array<double, 3>& r, const std::array<double, 3>& u,
-               const std::array<double, 3>& v, const std::array<double, 3>& w) {
-  State out;
-  out.resize(1);
-  out.box = scene.needles.box;
-  out.position[0] = r;
-  out.orientation[0] = u;
-  out.velocity[0] = v;
-  out.angular_velocity[0] = w;
-  out.id[0] = 0;
-  return out;
 }
 
 std::vector<Hit> hits_of(Simulation& run, double time) {

@@ -153,7 +153,14 @@ SourceEvent Walls::next(const Gas& gas, Needle i, Time now, Time until) const {
         trajectory ? trajectory_wall_contact(*trajectory, approach, from, to)
                    : first_wall_contact(approach, from, to);
     if (!contact.found) continue;
-    const Time time = std::max(now, gas.clock.add(record.time, contact.elapsed));
+    Time time = std::max(now, gas.clock.add(record.time, contact.elapsed));
+    // What a halt brings about is a hit on a wall at rest, however its time is rounded: it would
+    // else leave the body where it is, to hit again at once.
+    if (contact.elapsed >= plane.halt) {
+      const double step = std::max(gas.clock.resolution(), 0x1p-52 * contact.elapsed);
+      while (!wall.edge.is_at_rest(gas.clock.exact_difference(time, {})))
+        time = gas.clock.add(time, step);
+    }
     if (time > latest || (out.time != Time::never() && time == out.time)) continue;
     out.time = latest = time;
     out.detail = static_cast<std::int8_t>(2 * n + static_cast<std::size_t>(contact.tip));
