@@ -171,7 +171,7 @@ MixtureRates mixture_rates(const Composition& composition, double volume,
 /// values of G. A. Mansoori, N. F. Carnahan, K. E. Starling and T. W. Leland, J. Chem. Phys. 54,
 /// 1523 (1971). Rods count as the spheres with which these give the pressure that I. Nezbeda, Chem.
 /// Phys. Lett. 41, 55 (1976), finds of rods alone at the same packing fraction. Where spheres of a
-/// species differ, the mean over its bodies, by (D + D')^2. Overlapping fixed ones do not crowd. [1]
+/// species differ, the mean over its bodies, by (D + D')^2. Overlapping fixed ones do not crowd.
 std::vector<double> contact_values(const Composition& composition, double volume);
 
 /// p V / (N T) of spheres in such a fluid, by the same authors, from the means of D, D^2 and D^3 of

@@ -14,8 +14,9 @@ double densest_packing(const Composition& composition);
 
 /// Tries of a rod, on average, when rods are inserted one by one, the largest first: by the scaled
 /// particle theory of a fluid of convex bodies (R. M. Gibbons, Mol. Phys. 17, 81 (1969)), in which
-/// rods are less in each other's way than where they have been inserted. Fixed ones that may overlap
-/// each other leave places by chance. Infinite for a packing fraction of 1 or more of the others.
+/// rods are less in each other's way than where they have been inserted. Fixed ones that may
+/// overlap each other leave places by chance. Infinite for a packing fraction of 1 or more of the
+/// others.
 double estimated_tries(const Composition& composition, double volume);
 
 }  // namespace needlework
