@@ -436,7 +436,7 @@ TEST(Piston, EndsARunOfBodiesThatItJams) {
   for (const double length : {0.0, 0.7}) {
     Scene scene = length > 0 ? rods_of(14, length, 0.2, 5) : rods_of(5, length, 0.2, 5);
     const double side = length > 0 ? 3.5 : 2.2, height = length > 0 ? 6 : 4;
-    const double velocity = length > 0 ? 3 : 0.5;
+    const double velocity = length > 0 ? 10 : 0.5;
     scene.needles.box = {side, side, height};
     scene.walls = {piston("z", "low", velocity), piston("z", "high", -velocity)};
     expect_jam(scene);

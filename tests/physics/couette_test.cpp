@@ -72,6 +72,7 @@ struct FreeMolecules {
   }
 };
 
+// Of 16 comparisons with errors of some blocks, one may be off by more than three of them.
 void expect_free_molecular_stress(std::uint64_t count, int blocks, double largest_error) {
   struct Case {
     bool spheres;
@@ -81,24 +82,24 @@ void expect_free_molecular_stress(std::uint64_t count, int blocks, double larges
                         {false, 2, 6, 1, 1},
                         {false, 1, 6, 2, -1},
                         {false, 1.25, 2, 1, 2}}) {
-    Scene scene = couette(count, c.spheres, 20, c.height, c.velocity);
+    Scene scene = couette(count, c.spheres, 20, c.height, c.velocity, 2);
     scene.species[0].k = c.k;
     scene.species[0].mass = c.mass;
     const FreeMolecules found(scene, c.velocity, blocks, 10);
     EXPECT_LT(found.stress.measured().error, largest_error);
-    EXPECT_TRUE(agrees(found.stress.measured(), 1, 3)) << c.height;
-    EXPECT_TRUE(agrees(found.balance.measured(), 0, 3)) << c.height;
-    EXPECT_TRUE(agrees(found.flow.measured(), 0, 3)) << c.height;
-    EXPECT_TRUE(agrees(found.warmth.measured(), 1, 3)) << c.height;
+    EXPECT_TRUE(agrees(found.stress.measured(), 1, 4)) << c.height;
+    EXPECT_TRUE(agrees(found.balance.measured(), 0, 4)) << c.height;
+    EXPECT_TRUE(agrees(found.flow.measured(), 0, 4)) << c.height;
+    EXPECT_TRUE(agrees(found.warmth.measured(), 1, 4)) << c.height;
     EXPECT_LT(found.warmth.measured().error, 2 * largest_error);
   }
 }
 
 TEST(FreeMolecules, CarryTheStressOfTheirDensityOfCentres) {
-  expect_free_molecular_stress(400, 10, 0.03);
+  expect_free_molecular_stress(400, 20, 0.03);
 }
 TEST(FreeMolecules, CarryTheStressOfTheirDensityOfCentres_long) {
-  expect_free_molecular_stress(1500, 100, 0.004);
+  expect_free_molecular_stress(1500, 50, 0.006);
 }
 
 // A fluid between walls: in the middle three fifths of its height the flow, its rate of shear and

@@ -98,7 +98,7 @@ void expect_force_of_moving_wall(std::uint64_t count, int runs, double largest_e
 
 TEST(PistonForce, IsThatOfAnUndisturbedGas) { expect_force_of_moving_wall(4000, 8, 0.08); }
 
-TEST(PistonForce, IsThatOfAnUndisturbedGas_long) { expect_force_of_moving_wall(100000, 16, 0.012); }
+TEST(PistonForce, IsThatOfAnUndisturbedGas_long) { expect_force_of_moving_wall(20000, 16, 0.03); }
 
 // By how much the energy exceeds the adiabat's after the walls have come from one distance to
 // another: `exponent` is that of the free height, which is the distance less `taken`.
@@ -151,11 +151,11 @@ TEST(SlowPiston, CompressesNeedlesAlongTheirAdiabat_long) {
   EXPECT_LT(std::abs(excess.value), 0.01);
   const Measured slow = of_needles(0.03, false).excess(24).measured();
   std::cout << "at 0.03: " << slow << '\n';
-  EXPECT_LT(slow.error, 0.0006);
+  EXPECT_LT(slow.error, 0.0008);
   EXPECT_TRUE(agrees(slow, 0.0021, 3));
   const Measured back = of_needles(0.03, true).excess(24).measured();
   std::cout << "expanding: " << back << '\n';
-  EXPECT_LT(back.error, 0.0006);
+  EXPECT_LT(back.error, 0.0008);
   EXPECT_TRUE(agrees(back, 0.0021, 3));
 }
 
