@@ -261,9 +261,10 @@ std::string wall_lines(const Report& report) {
   constexpr std::array<std::string_view, 5> of_motion = {"place", "work", "impulse_x", "impulse_y",
                                                          "impulse_z"};
   const std::vector<Scene::WallSide> sides = report.scene.wall_sides();
+  const std::vector<WallTotals> walls = report.simulation.wall_totals();
   std::string text;
   for (std::size_t n = 0; n < sides.size(); ++n) {
-    const WallTotals wall = report.simulation.wall_totals()[n];
+    const WallTotals& wall = walls[n];
     const Scene::Wall& given = report.scene.walls[sides[n].entry];
     const bool is_plain = !given.motion && !given.temperature;
     text += line(text.empty() ? "walls" : "", "{} {}: {}", axis_name(wall), side_name(wall),

@@ -121,14 +121,15 @@ std::optional<Violation> piston_stops_behind(const Scene& scene) {
 
 std::optional<Violation> pistons_meet(const Scene& scene) {
   if (!scene.until.time) return {};
-  const std::optional<Meeting> meeting = meeting_of(scene, scene.needles.box);
-  if (!meeting || meeting->time > *scene.until.time) return {};
+  const std::optional<Meeting> found = meeting_of(scene, scene.needles.box);
+  if (!found || found->time > *scene.until.time) return {};
+  const auto& [time, axis, distance] = *found;
   return Violation{
       .key = "until.time",
       .value = fmt::to_string(*scene.until.time),
       .reason = fmt::format("expected a time before {:.10g}, when the walls along {} have come as "
                             "near as {:.10g}, the extent of the longest body",
-                            meeting->time, "xyz"[meeting->axis], meeting -> distance)};
+                            time, "xyz"[axis], distance)};
 }
 
 // Nothing holds needles back on an open side but gravity.
