@@ -59,6 +59,9 @@ class Flows(unittest.TestCase):
         run.observable("", "velocity")[::2, 0, 0] = np.nan
         run.observable("", "density")[::2, 0, 0] = 0
         self.assertAlmostEqual(flows._slabs(run).velocity[0], -0.5, 12)
+        # One needle alone has a velocity, and no temperature beside it.
+        run.observable("", "t_tr_beside_flow")[::3, 0, 1] = np.nan
+        self.assertAlmostEqual(flows._slabs(run).temperature[1], 4, 12)
 
 
 if __name__ == "__main__":
