@@ -180,7 +180,11 @@ enum needlework_stop {
   NEEDLEWORK_STOP_NOTHING_CAN_HAPPEN = 5, /* and there is no limit on time below the largest,
                                              2^62 mean free times, or 2^62 of a gas at rest */
   NEEDLEWORK_STOP_WALLS_MEET = 6, /* walls with a velocity leave the longest body no more room */
-  NEEDLEWORK_STOP_JAMMED = 7      /* they press bodies together, which collide ever more often */
+  NEEDLEWORK_STOP_JAMMED = 7,     /* they, or growth, press bodies together, which collide ever more
+                                     often */
+  NEEDLEWORK_STOP_GROWN = 8,      /* bodies have grown to the packing fraction of driving.growth */
+  NEEDLEWORK_STOP_PRESSURE = 9,   /* their pressure has come to that of driving.growth */
+  NEEDLEWORK_STOP_NO_ROOM = 10    /* an edge of the box leaves bodies that grow no more room */
 };
 
 /* Runs until a limit is met, at once if it is met already. Limits count from the start of the

@@ -195,8 +195,9 @@ Contact RodSearch::run(double from, double until) {
     }
   }
   if (!rods_.scale().moves) return {};
-  last_ = std::min(end, overlap.end * roundup);
-  first_ = std::max({0.0, from * rods_.scale().per_time, overlap.begin * (1 - 0x1p-20) - 0x1p-40});
+  last_ = std::min(end, time_of_comoving(frame(), overlap.end * roundup));
+  first_ = std::max({0.0, from * rods_.scale().per_time,
+                     time_of_comoving(frame(), overlap.begin * (1 - 0x1p-20) - 0x1p-40)});
   if (rods_.are_touching() && from == 0) first_ = 0;
   if (!(first_ <= last_)) return {};
   // A contact at the end of an interval belongs to it, so the first ends at first_ or later.
@@ -237,6 +238,7 @@ double RodSearch::time_apart() {
 
 ContactGeometry RodSearch::geometry(const DoubleDouble& elapsed) {
   const DoubleDouble s{elapsed.hi * rods_.scale().per_time, elapsed.lo * rods_.scale().per_time};
+  const double grown = 1 + frame().growth * s.hi;
   ContactGeometry out;
   const auto fill = [&](const auto& rods) {
     out.u_first = to_double(rods.u[0]);
@@ -245,8 +247,8 @@ ContactGeometry RodSearch::geometry(const DoubleDouble& elapsed) {
     const Vec3d gap = to_double(rods.gap);
     const double length = size_of(gap);
     out.normal = {gap.x / length, gap.y / length, gap.z / length};
-    out.arm_first = to_double(rods.arm[0]) / rods_.scale().per_length;
-    out.arm_second = to_double(rods.arm[1]) / rods_.scale().per_length;
+    out.arm_first = to_double(rods.arm[0]) * grown / rods_.scale().per_length;
+    out.arm_second = to_double(rods.arm[1]) * grown / rods_.scale().per_length;
   };
   fill(rods_at(frame(), s.hi));
   // Arms lose the digits that |u1 x u2| has lost, and the normal those that the distance has.
@@ -259,8 +261,8 @@ double RodSearch::gap(const DoubleDouble& elapsed) {
   const DoubleDouble s{elapsed.hi * rods_.scale().per_time, elapsed.lo * rods_.scale().per_time};
   const DoubleDouble square = rods_at(rods_.frame<DoubleDouble>(), s).square;
   const double length = std::sqrt(to_double(square)) + rods_.distance();
-  return to_double(square - two_prod(rods_.distance(), rods_.distance())) / length /
-         rods_.scale().per_length;
+  return to_double(square - two_prod(rods_.distance(), rods_.distance())) / length *
+         (1 + frame().growth * s.hi) / rods_.scale().per_length;
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ class RodInstants {
       : pair_(pair),
         counters_(counters),
         scale_(rod_scale_of(pair)),
-        frame_(make_frame<double>(pair, scale_)),
+        frame_(rod_frame<double>(pair, scale_)),
         rates_(rod_rates(frame_)),
         distance_(pair.distance * scale_.per_length),
         threshold_(distance_ * distance_),
@@ -86,7 +86,7 @@ class RodInstants {
   }
 
  private:
-  double largest_speed(const Vec3d& first_turn, const Vec3d& second_turn) const;
+  double largest_speed(const Vec3d& v, const Vec3d& first_turn, const Vec3d& second_turn) const;
   template <class T>
   double rate_error_of(const Instant<T>& now) const;
 
@@ -107,7 +107,7 @@ const Frame<T>& RodInstants::frame() {
   if constexpr (std::is_same_v<T, double>) {
     return frame_;
   } else {
-    if (!precise_frame_) precise_frame_ = make_frame<DoubleDouble>(pair_, scale_);
+    if (!precise_frame_) precise_frame_ = rod_frame<DoubleDouble>(pair_, scale_);
     return *precise_frame_;
   }
 }
@@ -142,7 +142,8 @@ Instant<T> RodInstants::at(const T& s) {
   out.error = (2 * out.distance + length) * length + 4 * unit_roundoff<T> * square;
   if constexpr (std::is_same_v<T, double>) out.error += threshold_error_;
   out.rate = to_double(out.rods.rate);
-  out.speed = largest_speed(to_double(out.rods.turn[0]), to_double(out.rods.turn[1]));
+  out.speed = largest_speed(velocity_at(frame_, to_double(s)), to_double(out.rods.turn[0]),
+                            to_double(out.rods.turn[1]));
   out.rate_error = rate_error_of(out);
   return out;
 }
@@ -158,8 +159,8 @@ double RodInstants::rate_error_of(const Instant<T>& now) const {
 }
 
 // That of two tips, since the velocity is linear in the places on both axes.
-inline double RodInstants::largest_speed(const Vec3d& first_turn, const Vec3d& second_turn) const {
-  const Vec3d v = to_double(frame_.v);
+inline double RodInstants::largest_speed(const Vec3d& v, const Vec3d& first_turn,
+                                         const Vec3d& second_turn) const {
   const double half0 = frame_.half[0], half1 = frame_.half[1];
   const double v0 = half0 * dot(v, first_turn), v1 = half1 * dot(v, second_turn),
                both = half0 * half1 * dot(first_turn, second_turn);

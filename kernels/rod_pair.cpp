@@ -40,7 +40,26 @@ RodPair exchanged(RodPair pair) {
   return pair;
 }
 
+// Kept out of the code of bodies that do not grow.
+template <class T>
+[[gnu::noinline]] void let_grow(Frame<T>& frame, double growth) {
+  frame.growth = T(growth);
+  frame.v = frame.v - frame.r * frame.growth;
+  // Errors count relative to what the difference is made of.
+  frame.v_norm = (frame.v_norm + growth * frame.r_norm) * roundup;
+  frame.v_length = size_of(to_double(frame.v)) * roundup + unit_roundoff<double> * frame.v_norm;
+}
+
 }  // namespace
+
+template <class T>
+Frame<T> rod_frame(const RodPair& pair, const PairScale& scale) {
+  Frame<T> out = make_frame<T>(pair, scale);
+  if (pair.growth != 0) let_grow(out, pair.growth * scale.per_rate);
+  return out;
+}
+template Frame<double> rod_frame(const RodPair&, const PairScale&);
+template Frame<DoubleDouble> rod_frame(const RodPair&, const PairScale&);
 
 PairScale rod_scale_of(const RodPair& pair) {
   const double reach = (pair.half_first + pair.half_second) + pair.distance;
@@ -49,8 +68,10 @@ PairScale rod_scale_of(const RodPair& pair) {
   const auto rate_of = [&](const Flight& rod, double half) {
     return std::sqrt(half * per_length) * rod.omega;
   };
-  return scale_of(pair, per_length,
-                  rate_of(*pair.first, pair.half_first) + rate_of(*pair.second, pair.half_second));
+  return scale_of(
+      pair, per_length,
+      (rate_of(*pair.first, pair.half_first) + rate_of(*pair.second, pair.half_second)) +
+          pair.growth);
 }
 
 double rod_allowance_of(const RodPair& pair) {

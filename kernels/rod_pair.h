@@ -1,6 +1,7 @@
 // Two rods of finite width in free flight, and what does not depend on which of them comes first.
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "kernels/contact_function.h"
@@ -12,7 +13,37 @@ namespace needlework::kernels {
 /// `shift` changes no bit of any result.
 struct RodPair : Pair {
   double distance = 1;  ///< of the axes at contact, the sum of the radii, above 0 [L]
+  /// Both bodies grow in proportion, linearly in time: half lengths and distance are those at
+  /// s = 0, and 1 + growth s times as large at s. [1 / time]
+  double growth = 0;
 };
+
+/// The pair in scaled lengths and time. Of bodies that grow, lengths are comoving: divided by
+/// 1 + growth s, so that the bodies keep their sizes and directors turn as ever. The centres then
+/// move along the straight line r + v s', with s' = s / (1 + growth s) and v less growth r in place
+/// of the velocity.
+template <class T>
+Frame<T> rod_frame(const RodPair& pair, const PairScale& scale);
+
+/// s' of s, and s of s'; the latter is infinite from s' = 1 / growth on.
+template <class T>
+T comoving_time(const Frame<T>& frame, const T& s) {
+  return to_double(frame.growth) == 0 ? s : s / (T(1.0) + frame.growth * s);
+}
+template <class T>
+T time_of_comoving(const Frame<T>& frame, const T& comoving) {
+  if (to_double(frame.growth) == 0) return comoving;
+  const T left = T(1.0) - frame.growth * comoving;
+  if (!(to_double(left) > 0)) return T(std::numeric_limits<double>::infinity());
+  return comoving / left;
+}
+/// The rate of change of r at s. It becomes no larger.
+template <class T>
+Vec3<T> velocity_at(const Frame<T>& frame, const T& s) {
+  if (to_double(frame.growth) == 0) return frame.v;
+  const T shrunk = T(1.0) / (T(1.0) + frame.growth * s);
+  return frame.v * (shrunk * shrunk);
+}
 
 /// Powers of two that scale a pair so that the largest distance of the centres at a contact lies in
 /// [1, 2) and the rods move by about 1 in a time of 1.

@@ -36,6 +36,11 @@ class RodStretches {
   static constexpr double least_share = 0x1p-6;
 
   const Frame<double>& frame() const { return rods_.frame<double>(); }
+  // The second derivative of n . r is not above this where bodies grow.
+  double of_growth(const Vec3d& n) const {
+    const double rounding = 8 * unit_roundoff<double> * frame().v_norm;
+    return 2 * frame().growth * (std::abs(dot(n, frame().v)) + rounding);
+  }
 
   RodInstants& rods_;
 };
@@ -56,7 +61,8 @@ bool RodStretches::stays_above_chord(const Instant<T>& a, const Instant<T>& b, d
 }
 
 // The distance is not below n . r - half1 |n . u1| - half2 |n . u2| for any unit vector n, in which
-// r is linear and each n . u departs from its chord by no more than its second derivative allows.
+// r is linear, or departs from its chord as growth allows, and each n . u departs from its chord by
+// no more than its second derivative allows.
 template <class T>
 bool RodStretches::stays_beyond_plane(const Instant<T>& a, const Instant<T>& b, bool starts) {
   if (!(a.distance > 0)) return false;
@@ -81,6 +87,7 @@ bool RodStretches::stays_beyond_plane(const Instant<T>& a, const Instant<T>& b, 
                  sine = to_double(dot(n, a.rods.turn[i]));
     bend += half * omega * std::sqrt(cosine * cosine + sine * sine);
   }
+  if (frame().growth != 0) bend += of_growth(to_double(n));
   const double h = to_double(b.s - a.s);
   const double error = 2 * (a.rods.error + b.rods.error);
   // What double-double does not tell from a touch is none of the contacts.
@@ -93,13 +100,14 @@ bool RodStretches::stays_beyond_plane(const Instant<T>& a, const Instant<T>& b, 
 inline bool RodStretches::stays_apart_for(const Instant<double>& a, double h) const {
   if (!(a.excess > a.error)) return false;
   const Vec3d n = a.rods.gap * (1 / a.distance);
-  double beyond = dot(n, a.rods.r) + dot(n, frame().v) * h, bend = 0;
+  double beyond = dot(n, a.rods.r) + dot(n, velocity_at(frame(), a.s)) * h, bend = 0;
   for (int i = 0; i < 2; ++i) {
     const double half = frame().half[i], omega = frame().omega[i];
     const double along = dot(n, a.rods.u[i]), turn = dot(n, a.rods.turn[i]);
     beyond -= half * std::abs(along + turn * h);
     bend += half * omega * std::sqrt(omega * along * (omega * along) + turn * turn);
   }
+  if (frame().growth != 0) bend += of_growth(n);
   const double noise = 0x1p-40 * (frame().r_norm + rods_.rates().velocity * (std::abs(a.s) + h));
   return beyond - 0.5 * bend * h * h * roundup >
          rods_.distance() * roundup + 4 * a.rods.error + noise;

@@ -21,6 +21,7 @@ struct Terms {
   T cosine, sine, omega;          // l/2 u_n = cosine cos(omega s) + sine sin(omega s)
   T amplitude, turns, frequency;  // of the surface, along the normal
   bool moves = false;
+  T growth{};  // l/2 u_n is 1 + growth s times as large at s
 };
 
 template <class T>
@@ -31,9 +32,15 @@ struct Height {
 
 // Bounds on the terms, for errors and derivatives.
 struct Sizes {
-  double z, v, g, turn, omega, amplitude, rate;
-  double bend() const { return (g + turn * omega * omega) + amplitude * rate * rate; }
-  double twist() const { return turn * omega * omega * omega + amplitude * rate * rate * rate; }
+  double z, v, g, turn, omega, amplitude, rate, growth;
+  // Of the second and the third derivative of h, up to s.
+  double bend(double s) const {
+    return (g + turn * omega * (omega * grown(s) + 2 * growth)) + amplitude * rate * rate;
+  }
+  double twist(double s) const {
+    return turn * omega * omega * (omega * grown(s) + 3 * growth) + amplitude * rate * rate * rate;
+  }
+  double grown(double s) const { return growth == 0 ? 1 : (1 + growth * s) * roundup; }
 };
 
 template <class T>
@@ -73,6 +80,7 @@ Terms<DoubleDouble> terms_of(const WallApproach& a) {
   out.amplitude = sign * a.wall.amplitude;
   out.turns = a.turns;
   out.frequency = a.wall.frequency;
+  out.growth = a.growth;
   return out;
 }
 
@@ -90,7 +98,8 @@ Terms<double> rough_terms_of(const WallApproach& a) {
           .amplitude = sign * a.wall.amplitude,
           .turns = to_double(a.turns),
           .frequency = a.wall.frequency,
-          .moves = a.wall.amplitude > 0};
+          .moves = a.wall.amplitude > 0,
+          .growth = a.growth};
 }
 
 Sizes sizes_of(const Terms<double>& t) {
@@ -102,6 +111,7 @@ Sizes sizes_of(const Terms<double>& t) {
   out.omega = t.omega * roundup;
   out.amplitude = t.moves ? std::abs(t.amplitude) * roundup : 0;
   out.rate = t.moves ? two_pi * std::abs(t.frequency) * roundup : 0;
+  out.growth = t.growth;
   return out;
 }
 
@@ -111,12 +121,19 @@ Height<T> height(const Terms<T>& t, const Sizes& sizes, int tip, const T& zero, 
   const T time(s), half(0.5);
   const T sign(tip == 0 ? 1.0 : -1.0);
   const SineCosine<T> turn = sine_cosine(t.omega * time);
-  const T along = (t.cosine * turn.cosine + t.sine * turn.sine) * sign;
-  const T across = (t.sine * turn.cosine - t.cosine * turn.sine) * sign;
+  T along = (t.cosine * turn.cosine + t.sine * turn.sine) * sign;
+  T across = (t.sine * turn.cosine - t.cosine * turn.sine) * sign;
   Height<T> out;
+  if (sizes.growth == 0) {
+    out.dh = (t.v + t.g * time) + t.omega * across;
+    out.ddh = t.g - t.omega * t.omega * along;
+  } else {
+    const T grown = T(1.0) + t.growth * time;
+    out.dh = (t.v + t.g * time) + (grown * t.omega * across + t.growth * along);
+    out.ddh = t.g - t.omega * (grown * t.omega * along - (t.growth + t.growth) * across);
+    along = along * grown;
+  }
   out.h = ((t.z + t.v * time) + (half * t.g) * (time * time)) + along;
-  out.dh = (t.v + t.g * time) + t.omega * across;
-  out.ddh = t.g - t.omega * t.omega * along;
   double phase = 0;
   if (t.moves) {
     const T rate = two_pi_of<T>() * t.frequency;
@@ -130,11 +147,12 @@ Height<T> height(const Terms<T>& t, const Sizes& sizes, int tip, const T& zero, 
   out.h = out.h - zero;
   // Two dozen roundings of each term, and of its phase.
   constexpr double rounding = 32 * unit_roundoff<T>;
-  const double turned = 1 + sizes.omega * s, moved = 1 + phase;
+  const double turned = (1 + sizes.omega * s) * sizes.grown(s), moved = 1 + phase;
   out.error_h = rounding * ((sizes.z + sizes.v * s + sizes.g * s * s) + sizes.turn * turned +
                             sizes.amplitude * moved + std::abs(to_double(zero)));
-  out.error_dh = rounding * ((sizes.v + sizes.g * s) + sizes.turn * sizes.omega * turned +
-                             sizes.amplitude * sizes.rate * moved);
+  out.error_dh =
+      rounding * ((sizes.v + sizes.g * s) + sizes.turn * (sizes.omega + sizes.growth) * turned +
+                  sizes.amplitude * sizes.rate * moved);
   return out;
 }
 
@@ -165,10 +183,10 @@ double time_to_come_near(const Terms<double>& t, const Sizes& sizes, double to) 
   const double apart = t.z - (near + 0x1p-40 * (sizes.z + near));
   if (!(apart > 0)) return 0;
   // The first time at which apart + v s + g s^2 / 2 is 0.
-  const double square = t.v * t.v - 2 * t.g * apart;
-  if (square < 0 || (t.v >= 0 && t.g >= 0)) return infinity;
+  const double v = t.v - t.growth * near, square = v * v - 2 * t.g * apart;
+  if (square < 0 || (v >= 0 && t.g >= 0)) return infinity;
   const double root = std::sqrt(square);
-  const double at = t.v < 0 ? 2 * apart / (root - t.v) : (root + t.v) / -t.g;
+  const double at = v < 0 ? 2 * apart / (root - v) : (root + v) / -t.g;
   return at > to ? infinity : at * (1 - 0x1p-40);
 }
 
@@ -177,14 +195,16 @@ class Approach {
  public:
   explicit Approach(const WallApproach& given)
       : given_(given), rough_(rough_terms_of(given)), sizes_(sizes_of(rough_)) {
-    const double v = sizes_.v + sizes_.turn * sizes_.omega + sizes_.amplitude * sizes_.rate;
+    const double v =
+        sizes_.v + sizes_.turn * (sizes_.omega + sizes_.growth) + sizes_.amplitude * sizes_.rate;
     // Besides the rounding of the record, that of the time of a contact.
     within_ = given.tolerance + 4 * given.resolution * v;
     const double size = given.half + given.radius;
-    const double rate = std::max({v / size, sizes_.omega, sizes_.rate, std::sqrt(sizes_.g / size)});
+    const double rate =
+        std::max({v / size, sizes_.omega, sizes_.rate, std::sqrt(sizes_.g / size), sizes_.growth});
     stretch_ = rate > 0 ? times_power_of_two(1, 3 - exponent_of(rate)) : infinity;
-    bend_ = sizes_.bend() * roundup;
-    twist_ = sizes_.twist() * roundup;
+    bend_ = sizes_.bend(stretch_) * roundup;
+    twist_ = sizes_.twist(stretch_) * roundup;
   }
 
   double time_to_come_near(double to) const {
@@ -201,9 +221,17 @@ class Approach {
   double within() const { return within_; }  ///< a tip at the wall may be so far beyond it [L]
   double stretch() const {
     return stretch_;
-  }  ///< in which the needle moves a few lengths or radians
-  double bend() const { return bend_; }
+  }                                      ///< in which the needle moves a few lengths or radians
+  double bend() const { return bend_; }  ///< in the first stretch
   double twist() const { return twist_; }
+  /// The same up to the end of a later one.
+  double bend_until(double end) const {
+    return sizes_.growth == 0 ? bend_ : sizes_.bend(end) * roundup;
+  }
+  double twist_until(double end) const {
+    return sizes_.growth == 0 ? twist_ : sizes_.twist(end) * roundup;
+  }
+  bool grows() const { return sizes_.growth != 0; }
 
  private:
   const WallApproach& given_;
@@ -276,6 +304,7 @@ class TipSearch {
   Start leave(double slope, double curvature) {
     const double leaves = safe_step_from_contact(slope, curvature, approach_.twist());
     begin_ = 0.75 * leaves;
+    if (approach_.grows()) begin_ = std::min(begin_, approach_.stretch());
     if (leaves > 0) return Start::leaves;
     // An impulse on the other tip may leave this one without speed and acceleration. It is then so
     // near to the wall for so long that nothing can happen to it.
@@ -288,9 +317,10 @@ class TipSearch {
   // From s, where the height is above 0 or 0, to the end of the stretch, or to the last time asked
   // for.
   double in_stretch(double s, double end, double last) {
+    const double bend = approach_.bend_until(end), twist = approach_.twist_until(end);
     while (s < end && s <= last) {
       const Height<double> rough = approach_.rough(tip_, rough_zero_, s);
-      const double step = step_from(rough, rough.h);
+      const double step = step_from(rough, rough.h, bend);
       if (step > 1024 * tick_ && step > 0x1p-30 * s) {
         s += step;
         continue;
@@ -302,7 +332,7 @@ class TipSearch {
         return at < end ? at : infinity;
       }
       const Height<DoubleDouble> fine = approach_.exact(tip_, exact_zero(), s);
-      const double fine_step = step_from(fine, to_double(fine.h));
+      const double fine_step = step_from(fine, to_double(fine.h), bend);
       if (fine_step > tick_ && s + fine_step > s) {
         s += fine_step;
         continue;
@@ -310,8 +340,8 @@ class TipSearch {
       const double slope = to_double(fine.dh);
       if (slope < 0) return s;
       // It grazes the wall, and leaves it.
-      const double leaves = safe_step_from_contact(
-          slope, to_double(fine.ddh) - 0x1p-40 * approach_.bend(), approach_.twist());
+      const double leaves =
+          safe_step_from_contact(slope, to_double(fine.ddh) - 0x1p-40 * bend, twist);
       if (!(0.75 * leaves > tick_ && s + 0.75 * leaves > s)) return s;
       s += 0.75 * leaves;
     }
@@ -324,10 +354,10 @@ class TipSearch {
     return *exact_zero_;
   }
   template <class T>
-  double step_from(const Height<T>& at, double h) const {
+  double step_from(const Height<T>& at, double h, double bend) const {
     const double low = h - at.error_h;
     if (!(low > 0)) return 0;
-    return safe_step(low, to_double(at.dh) - at.error_dh, approach_.bend()) * (1 - 0x1p-40);
+    return safe_step(low, to_double(at.dh) - at.error_dh, bend) * (1 - 0x1p-40);
   }
 
   Approach& approach_;

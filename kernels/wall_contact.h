@@ -2,14 +2,14 @@
 //
 // The height of a tip above the wall's surface, along the normal into the gas, is
 //
-//   h(s) = z + v s + g s^2 / 2 +- (l/2) u_n(s) - A sin(2 pi (turns + f s)),
+//   h(s) = z + v s + g s^2 / 2 +- (1 + a s) (l/2) u_n(s) - A sin(2 pi (turns + f s)),
 //
-// with s the time since the needle's record, v relative to a surface of constant velocity, and u_n
-// the component of its director. Where such a surface comes to rest, h has a kink: it is searched
-// up to there, and from there on with the surface at rest, so that no step goes over it. The first
-// contact is where it falls to 0. A bound on |h''| makes each step towards it safe: no contact is
-// jumped over, and none is lost however flat it is. What double cannot decide goes to
-// double-double.
+// with a the rate at which the needle grows, s the time since the needle's record, v relative to a
+// surface of constant velocity, and u_n the component of its director. Where such a surface comes
+// to rest, h has a kink: it is searched up to there, and from there on with the surface at rest, so
+// that no step goes over it. The first contact is where it falls to 0. A bound on |h''| makes each
+// step towards it safe: no contact is jumped over, and none is lost however flat it is. What double
+// cannot decide goes to double-double.
 #pragma once
 
 #include <limits>
@@ -38,12 +38,13 @@ struct WallPlane {
     out.halt = std::numeric_limits<double>::infinity();
     return out;
   }
-  /// The wall that stops lines where this one stops bodies of a radius [L]. Of one at rest, its
-  /// place is a double.
-  WallPlane for_radius(double radius) const {
+  /// The wall that stops lines where this one stops bodies of a radius [L] that grows at a speed.
+  /// Of one at rest, its place is a double.
+  WallPlane for_radius(double radius, double speed = 0) const {
     WallPlane out = *this;
     out.place = place + DoubleDouble(normal * radius);
-    if (velocity == 0) out.place = to_double(out.place);
+    out.velocity += normal * speed;
+    if (out.velocity == 0) out.place = to_double(out.place);
     out.halt_place = to_double(halt_place + DoubleDouble(normal * radius));
     return out;
   }
@@ -55,6 +56,8 @@ struct WallApproach {
   double gravity = 0;  ///< acceleration along the positive axis [L / time^2]
   double half = 0.5;   ///< half the needle's length; 0: a sphere, of the radius [L]
   double radius = 0;   ///< of what touches the wall beyond the tips; its place has room for it [L]
+  double growth = 0;   ///< `half` is 1 + growth s times as large at s; the wall moves by what the
+                       ///< radius grows [1 / time]
   WallPlane wall;
   DoubleDouble turns;  ///< phase of the wall's motion at the record, in [0, 1)
   unsigned touching =

@@ -98,9 +98,23 @@ struct Scene {
     double rate = 1;         ///< > 0, of each needle [1 / time]
     double temperature = 1;  ///< > 0, of the velocities that are drawn
   };
+  /// All bodies grow in proportion, linearly in time, while their temperature is held: by the rule
+  /// of Lubachevsky and Stillinger, towards jammed packings. Masses and moments of inertia stay.
+  struct Growth {
+    double rate = 1e-2;  ///< of the mean diameter, over sqrt(T / m) at the start [1]
+    std::optional<double> until_packing;   ///< a packing fraction at which they have grown
+    std::optional<double> until_pressure;  ///< P V / (N T) that ends the run
+    /// Collisions, as a multiple of the number of bodies, after which velocities are scaled back to
+    /// the temperature at the start; 0: never. Absent: 1, or 0.01 / rate of slower growth.
+    std::optional<double> cool_every;
+    /// No key of scene files: bodies begin as this share of the sizes of the scene and, where it is
+    /// below 1, grow to these.
+    double from = 1;
+  };
   struct Driving {
     std::optional<Kicks> kicks;
     std::optional<Andersen> andersen;
+    std::optional<Growth> growth;
   };
   struct Engine {
     std::string search = "auto";

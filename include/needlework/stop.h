@@ -12,7 +12,10 @@ enum class Stop {
   interrupted,
   nothing_can_happen,
   walls_meet,  ///< walls with a velocity leave the longest body no more room
-  jammed       ///< they press bodies together, which collide ever more often in no time
+  jammed,      ///< they, or growth, press bodies together, which collide ever more often in no time
+  grown,       ///< bodies have grown to the packing fraction of driving.growth
+  pressure,    ///< their pressure has come to that of driving.growth
+  no_room      ///< an edge of the box leaves bodies that grow no more room
 };
 
 /// Its name, as enumerated.
@@ -32,6 +35,12 @@ constexpr const char* name_of(Stop stop) {
       return "walls_meet";
     case Stop::jammed:
       return "jammed";
+    case Stop::grown:
+      return "grown";
+    case Stop::pressure:
+      return "pressure";
+    case Stop::no_room:
+      return "no_room";
     case Stop::nothing_can_happen:
       break;
   }

@@ -259,14 +259,15 @@ struct StressTotals {
 struct EnergyBudget {
   double pairs = 0;
   std::vector<double> walls;  ///< in the order of wall_totals()
-  std::optional<double> thermostat, kicks, gravity, shear;
+  std::optional<double> thermostat, kicks, gravity, shear, growth, cooling;
   double velocities_set = 0;
 
   /// With 0 for what the scene has not.
   EnergyBudget complete() const {
     EnergyBudget out = *this;
     if (walls.empty()) out.walls = {0};
-    for (std::optional<double>* each : {&out.thermostat, &out.kicks, &out.gravity, &out.shear})
+    for (std::optional<double>* each :
+         {&out.thermostat, &out.kicks, &out.gravity, &out.shear, &out.growth, &out.cooling})
       if (!*each) *each = 0;
     return out;
   }
@@ -289,6 +290,15 @@ struct EnergyBudget {
       visit(Described{"gravity", unit::energy, "Energy by gravity along periodic axes"}, *gravity);
     }
     if (shear) visit(Described{"shear", unit::energy, "Energy by uniform shear"}, *shear);
+    if (growth) {
+      visit(Described{"growth", unit::energy, "Energy by growth, which pushes bodies apart"},
+            *growth);
+    }
+    if (cooling) {
+      visit(Described{"cooling", unit::energy,
+                      "Energy by velocities that are scaled back as bodies grow"},
+            *cooling);
+    }
   }
 };
 

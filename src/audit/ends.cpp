@@ -177,6 +177,11 @@ void Audit::check_end(const Scene::Until& until, Stop reason, double time) {
     case Stop::wall_time:
     case Stop::interrupted:
       return;
+    case Stop::grown:
+    case Stop::pressure:
+    case Stop::no_room:
+      right &= setup_.driving.growth.has_value();
+      break;
   }
   if (reason == Stop::time) {
     right &= collisions < most && energy > least_energy - slack;

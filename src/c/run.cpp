@@ -28,6 +28,9 @@ static_assert(static_cast<int>(Stop::interrupted) == NEEDLEWORK_STOP_INTERRUPTED
 static_assert(static_cast<int>(Stop::nothing_can_happen) == NEEDLEWORK_STOP_NOTHING_CAN_HAPPEN);
 static_assert(static_cast<int>(Stop::walls_meet) == NEEDLEWORK_STOP_WALLS_MEET);
 static_assert(static_cast<int>(Stop::jammed) == NEEDLEWORK_STOP_JAMMED);
+static_assert(static_cast<int>(Stop::grown) == NEEDLEWORK_STOP_GROWN);
+static_assert(static_cast<int>(Stop::pressure) == NEEDLEWORK_STOP_PRESSURE);
+static_assert(static_cast<int>(Stop::no_room) == NEEDLEWORK_STOP_NO_ROOM);
 
 runs::Limits limits_of(const needlework_limits& limits) {
   runs::Limits out;

@@ -15,6 +15,7 @@
 #include "src/runs/resources.h"
 #include "src/runs/size_text.h"
 #include "src/scene/confinement.h"
+#include "src/scene/growth_plan.h"
 
 namespace needlework::cli {
 namespace {
@@ -258,7 +259,7 @@ Json gravity_json(const runs::Explanation& e) {
 
 std::string driving_lines(const runs::Explanation& e) {
   std::string text;
-  const auto& [kicks, andersen] = e.scene.driving;
+  const auto& [kicks, andersen, growth] = e.scene.driving;
   if (kicks) {
     text += line("driving",
                  fmt::format("kicks every {:g}, translational {:g}, rotational {:g}: energy {:.4g} "
@@ -269,6 +270,14 @@ std::string driving_lines(const runs::Explanation& e) {
     text += line(text.empty() ? "driving" : "",
                  fmt::format("thermostat at temperature {:g}, rate {:g} of redraws of each needle",
                              andersen->temperature, andersen->rate));
+  }
+  if (growth) {
+    const GrowthPlan plan = growth_plan(e.scene, e.scene.composition(), e.scene.needles.box);
+    text +=
+        line("driving",
+             fmt::format("all bodies grow, by a rate of {:g}, to at most {:.6g} of their sizes{}",
+                         growth->rate, plan.largest,
+                         plan.end == Stop::no_room ? ", as the box has no room for more" : ""));
   }
   return text;
 }
@@ -356,6 +365,10 @@ Json driving_json(const runs::Explanation& e) {
   }
   if (const auto& andersen = e.scene.driving.andersen) {
     out["andersen"] = {{"rate", andersen->rate}, {"temperature", andersen->temperature}};
+  }
+  if (const auto& growth = e.scene.driving.growth) {
+    const GrowthPlan plan = growth_plan(e.scene, e.scene.composition(), e.scene.needles.box);
+    out["growth"] = {{"rate", growth->rate}, {"largest", plan.largest}};
   }
   return out;
 }
@@ -483,7 +496,8 @@ std::string json_of(const runs::Explanation& e) {
     json["falling"] = gravity_json(e);
   }
   if (scene.shear) json["shear"] = shear_json(e);
-  if (scene.driving.kicks || scene.driving.andersen) json["driving"] = driving_json(e);
+  if (scene.driving.kicks || scene.driving.andersen || scene.driving.growth)
+    json["driving"] = driving_json(e);
   json["until"] = {{"time", optional_number(scene.until.time)},
                    {"collisions_per_needle", optional_number(scene.until.collisions_per_needle)},
                    {"energy_ratio", optional_number(scene.until.energy_ratio)},

@@ -23,7 +23,7 @@ const std::vector<Group>& groups() {
       {"why theory is off",
        {"boltzmann-relaxation", "boltzmann-cooling", "boltzmann-ratio", "encounters"}},
       {"driven", {"kicked", "vibrated", "shear"}},
-      {"between walls", {"walls", "sedimentation", "settling", "piston", "channels"}},
+      {"between walls", {"piston", "channels", "walls", "sedimentation", "settling"}},
       {"rods", {"rods", "rods-flow", "nematic"}},
       {"sliding contact", {"sliding"}},
       {"liquid", {"liquid", "liquid-correlations"}},

@@ -50,7 +50,13 @@ std::string reason(const runs::RunResult& result) {
     case Stop::walls_meet:
       return "ran until the walls left no more room";
     case Stop::jammed:
-      return "jammed between its walls";
+      return "jammed";
+    case Stop::grown:
+      return "grew to its packing fraction";
+    case Stop::pressure:
+      return "grew to its pressure";
+    case Stop::no_room:
+      return "grew until the box had no more room";
     case Stop::nothing_can_happen:
       break;
   }

@@ -43,7 +43,8 @@ struct SourceOutcome {
   bool changes_motion = false;
   Vec3d velocity, angular_velocity;  ///< after the event
   double energy_change = 0;          ///< of the needle
-  double work = 0;  ///< of it, what the motion of the object has done; the rest is heat
+  double work = 0;         ///< of it, what the motion of the object has done; the rest is heat
+  double growth_work = 0;  ///< and what growth of the needle has
   // What reports hold besides (needlework/happening.h).
   std::uint32_t object = 0;    ///< of the source, such as the index of a wall
   double arm = 0;              ///< where on the needle it happens [L]

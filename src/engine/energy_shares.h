@@ -28,6 +28,7 @@ class EnergyShares {
     };
     add_window(pairs_, of_pairs(tally));
     add_window(flow_, tally.flow);
+    add_window(growth_, tally.growth);
     sources_.resize(tally.by_source.size());
     for (std::size_t n = 0; n < sources_.size(); ++n) {
       add_window(sources_[n], tally.by_source[n].energy);
@@ -37,10 +38,11 @@ class EnergyShares {
       add_window(objects_[n], tally.by_object[n].energy);
     }
   }
-  /// Notes that all needles have been kicked, or that a caller has replaced their velocities, and
-  /// how their energy was before and after.
+  /// Notes that all needles have been kicked, that a caller has replaced their velocities, or that
+  /// they have been scaled back, and how their energy was before and after.
   void kicked(double before, double after) { kicks_ = kicks_ + two_sum(after, -before); }
   void velocities_set(double before, double after) { set_ = set_ + two_sum(after, -before); }
+  void cooled(double before, double after) { cooling_ = cooling_ + two_sum(after, -before); }
 
   // Energies of all needles, as the account and the tally are now.
   double pairs(const EnergyAccount& account, const Tally& tally) const {
@@ -49,6 +51,10 @@ class EnergyShares {
   /// By uniform shear, in flights that are over and in collisions.
   double flow(const EnergyAccount& account, const Tally& tally) const {
     return to_double(at(flow_, account, tally.flow));
+  }
+  /// By growth, in collisions and at walls.
+  double growth(const EnergyAccount& account, const Tally& tally) const {
+    return to_double(at(growth_, account, tally.growth));
   }
   double source(std::size_t n, const EnergyAccount& account, const Tally& tally) const {
     return n < tally.by_source.size() ? now(sources_, n, account, tally.by_source[n].energy) : 0;
@@ -59,12 +65,18 @@ class EnergyShares {
   }
   double kicks() const { return to_double(kicks_); }
   double velocities_set() const { return to_double(set_); }
+  double cooling() const { return to_double(cooling_); }
 
   /// For a gas with so many sources and objects of them.
   template <class A>
-  void transfer(A& archive, std::size_t sources, std::size_t objects, bool flows = false) {
+  void transfer(A& archive, std::size_t sources, std::size_t objects, bool flows = false,
+                bool grows = false) {
     pass(archive, pairs_);
     if (flows) pass(archive, flow_);
+    if (grows) {
+      pass(archive, growth_);
+      pass(archive, cooling_);
+    }
     for (DoubleDouble* each : {&kicks_, &set_}) pass(archive, *each);
     if (sources == 0) return;
     sources_.resize(sources);
@@ -80,7 +92,7 @@ class EnergyShares {
   };
 
   static Quanta of_pairs(const Tally& tally) {
-    Quanta quanta = tally.energy - tally.flow;
+    Quanta quanta = tally.energy - tally.flow - tally.growth;
     for (const SourceTally& source : tally.by_source) quanta -= source.energy;
     return quanta;
   }
@@ -103,9 +115,9 @@ class EnergyShares {
     archive(share.at_opening);
   }
 
-  Share pairs_, flow_;
+  Share pairs_, flow_, growth_;
   std::vector<Share> sources_, objects_;
-  DoubleDouble kicks_, set_;
+  DoubleDouble kicks_, set_, cooling_;
 };
 
 }  // namespace needlework

@@ -281,6 +281,10 @@ template <Search S, Model M>
 [[gnu::always_inline]] inline void EventProcessor<S, M>::count(const PairEvent& event, Needle a,
                                                                Needle b) {
   tally_.energy += run_.energy.in_quanta(event.outcome.energy_change);
+  if constexpr (M::Law::has_distance) {
+    if (event.outcome.growth_work != 0)
+      tally_.growth += run_.energy.in_quanta(event.outcome.growth_work);
+  }
   if (!event.outcome.collides) return;
   ++tally_.collisions;
   tally_.tc_collisions += event.outcome.contact_time_rule;
@@ -360,10 +364,13 @@ void EventProcessor<S, M>::happen(const Event& event) {
   const Quanta quanta =
       outcome.changes_motion ? run_.energy.in_quanta(outcome.energy_change) : Quanta();
   tally_.energy += quanta;
-  tally_.count_source(event.source, quanta, run_.sources.size());
+  const Quanta growth =
+      outcome.growth_work != 0 ? run_.energy.in_quanta(outcome.growth_work) : Quanta();
+  tally_.growth += growth;
+  tally_.count_source(event.source, quanta - growth, run_.sources.size());
   if (source.objects() > 0) {
     tally_.count_object(run_.first_object[event.source] + outcome.object,
-                        {quanta, outcome.normal_impulse, outcome.work, outcome.impulse},
+                        {quanta - growth, outcome.normal_impulse, outcome.work, outcome.impulse},
                         run_.objects);
   }
   schedule(i, place(i));
@@ -410,7 +417,7 @@ template <Search S, Model M>
   best.time = std::min(
       {placed_until, gas_.records[i].renewal, gas_.clock.add(time, run_.windows.search_span())});
   if constexpr (M::has_effects) {
-    if (run_.kicks) best.time = std::min(best.time, run_.after_next_kick());
+    if (run_.replaces_velocities()) best.time = std::min(best.time, run_.after_next_instant());
     consider_sources(i, best);
   }
   search_.find({i, just_hit, time, gas_.clock.difference(best.time, time)}, model_,

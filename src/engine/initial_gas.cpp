@@ -17,6 +17,7 @@
 #include "src/scene/check.h"
 #include "src/scene/confinement.h"
 #include "src/scene/derived_numbers.h"
+#include "src/scene/growth_plan.h"
 #include "src/scene/own_bodies.h"
 
 namespace needlework {
@@ -130,10 +131,34 @@ void set_species(Gas& gas, const State& initial, const std::vector<std::size_t>&
   }
 }
 
-// Gives each needle its body, where those of a species differ.
-void set_own_bodies(Gas& gas, const State& initial, const std::vector<std::size_t>& rows) {
-  const std::vector<BodyNumbers> bodies = own_bodies_of(gas.composition, initial);
-  for (std::size_t i = 0; i < bodies.size(); ++i) gas.own_bodies[i] = bodies[rows[i]];
+// Gives each needle its body, where those of a species differ, larger than it is by this factor.
+void set_own_bodies(Gas& gas, const Composition& composition, double larger, const State& initial,
+                    const std::vector<std::size_t>& rows) {
+  const std::vector<BodyNumbers> bodies = own_bodies_of(composition, initial);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    gas.own_bodies[i] = bodies[rows[i]];
+    gas.own_bodies[i].length *= larger;
+    gas.own_bodies[i].diameter *= larger;
+  }
+}
+
+// The rate of a scene is that of the mean diameter of bodies, in the mean thermal speed.
+void let_grow(Gas& gas, const Scene& scene, const GrowthPlan& plan) {
+  double squares = 0, diameters = 0;
+  for (Needle i{0}; i < gas.size(); ++i) {
+    const Vec3d& v = gas.records[i].flight.v;
+    squares += gas.body(i).mass * dot(v, v);
+    diameters += 2 * gas.radius(i);
+  }
+  if (gas.size() == 0) return;
+  const double speed = std::sqrt(squares / (3 * gas.mass()));
+  if (!(speed > 0)) {
+    throw InputError(fmt::format(
+        "{}: expected bodies that move, as it counts in their thermal speed at the start",
+        place_of(scene, "driving.growth.rate", fmt::to_string(scene.driving.growth->rate))));
+  }
+  const double mean_diameter = diameters / static_cast<double>(gas.size());
+  gas.growth.emplace(plan.start / plan.largest, scene.driving.growth->rate * speed / mean_diameter);
 }
 
 // That fixed needles are at rest.
@@ -158,11 +183,12 @@ void require_inside(const Scene& scene, const Gas& gas) {
     const Record& record = gas.records[i];
     const Vec3d &r = record.flight.r, &u = record.flight.u;
     const std::array<double, 3> centre = {r.x, r.y, r.z}, director = {u.x, u.y, u.z};
-    const double half = gas.half_length(i) / std::hypot(u.x, u.y, u.z);
+    const double scale = gas.scale_at({});
+    const double half = scale * gas.half_length(i) / std::hypot(u.x, u.y, u.z);
     for (const Scene::WallSide& side : walls) {
       Gap wall = gaps[side.axis];
       (side.is_high ? wall.has_low : wall.has_high) = false;
-      const double reach = half * std::abs(director[side.axis]) + gas.radius(i);
+      const double reach = half * std::abs(director[side.axis]) + scale * gas.radius(i);
       const double beyond = wall.beyond(centre[side.axis], reach, gas.box.edge(side.axis));
       if (beyond <= gas.touch_tolerance()) continue;
       throw InputError(fmt::format(
@@ -196,7 +222,7 @@ void require_steady_flow(const Gas& gas) {
 void require_room_for_rods(const Gas& gas) {
   if (!gas.composition.has_width()) return;
   std::vector<RodShape> shapes;
-  for (Needle i{0}; i < gas.size(); ++i) shapes.push_back(shape_of(gas, i));
+  for (Needle i{0}; i < gas.size(); ++i) shapes.push_back(shape_of(gas, i, {}));
   RodGrid grid(gas.composition, shapes, gas.box_at({}));
   std::size_t pairs = 0;
   RodGrid::Overlap worst{};
@@ -296,7 +322,10 @@ Gas make_gas(const Scene& scene, const State& initial) {
   set_shear(gas, scene, slide_of(scene, initial));
   const auto velocities = velocities_of(gas, initial);
   check_size(velocities.size(), count, "velocity");
-  gas.set_composition(composition_of(scene, initial));
+  const Composition composition = composition_of(scene, initial);
+  GrowthPlan growth;
+  if (scene.driving.growth) growth = growth_plan(scene, composition, initial.box);
+  gas.set_composition(growth.largest == 1 ? composition : enlarged(composition, growth.largest));
   const double length = gas.longest;
   const Room room(scene);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -341,7 +370,8 @@ Gas make_gas(const Scene& scene, const State& initial) {
       refuse_vector(flight.u, "orientation", gas.ids[i], "one that is not 0");
   }
   set_species(gas, initial, order);
-  set_own_bodies(gas, initial, order);
+  set_own_bodies(gas, composition, growth.largest, initial, order);
+  if (scene.driving.growth) let_grow(gas, scene, growth);
   require_fixed_at_rest(gas);
   require_steady_flow(gas);
   require_inside(scene, gas);

@@ -18,11 +18,12 @@ StopConditions::StopConditions(const Run& run, const Scene::Until& until)
       energy(until.energy_ratio ? *until.energy_ratio * run.initial_energy
                                 : -std::numeric_limits<double>::infinity()),
       wall(std::chrono::steady_clock::time_point::max()) {
-  if (run.walls_meet < time) {
-    time = run.walls_meet;
-    walls_meet = true;
+  if (run.last_time < time) {
+    time = run.last_time;
+    why = run.at_last_time;
   }
-  if (!until.time && !until.collisions_per_needle && !until.energy_ratio && !until.wall_s) {
+  if (!run.growing && !until.time && !until.collisions_per_needle && !until.energy_ratio &&
+      !until.wall_s) {
     throw InputError("until: expected at least one end condition");
   }
   for (const auto& [name, end] : {std::pair("time", until.time),

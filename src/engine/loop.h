@@ -22,16 +22,17 @@ struct StopConditions {
   std::optional<Stop> reached(const Run& run) const {
     if (static_cast<double>(run.tally.collisions) >= collisions) return Stop::collisions;
     if (run.present_energy() <= energy) return Stop::energy;
+    if (run.growing && run.growing->is_over()) return run.growing->parameters().at_most;
     return std::nullopt;
   }
   /// Whether the caller has interrupted the run, the limit on wall time has passed, or no limit on
   /// time will end a gas without collisions.
   std::optional<Stop> called_off(Run& run) const;
   /// Why a run that has come to the limit of time has ended.
-  Stop at_time() const { return walls_meet ? Stop::walls_meet : Stop::time; }
+  Stop at_time() const { return why; }
 
-  Time time;                ///< Time::never(): no limit
-  bool walls_meet = false;  ///< then
+  Time time;              ///< Time::never(): no limit
+  Stop why = Stop::time;  ///< the run ends then
   double collisions;
   double energy;
   std::chrono::steady_clock::time_point wall;

@@ -104,8 +104,9 @@ FreeNeedle needle_at(const Gas& gas, Time at, Id id) {
   out.orientation = to_array(there.u);
   out.velocity = to_array(there.v - box.image(boxes).velocity);
   out.angular_velocity = to_array(there.w);
-  out.length = 2 * gas.half_length(i);
-  out.diameter = 2 * gas.radius(i);
+  const double scale = gas.scale_at(at);
+  out.length = 2 * gas.half_length(i) * scale;
+  out.diameter = 2 * gas.radius(i) * scale;
   return out;
 }
 

@@ -18,8 +18,9 @@ constexpr double most_overlap_of_rods = 1e-13;
 
 }  // namespace
 
-RodShape shape_of(const Gas& gas, Needle i) {
-  return {2 * gas.half_length(i), 2 * gas.radius(i), gas.records[i].species};
+RodShape shape_of(const Gas& gas, Needle i, Time now) {
+  const double scale = gas.scale_at(now);
+  return {2 * gas.half_length(i) * scale, 2 * gas.radius(i) * scale, gas.records[i].species};
 }
 
 double explained_overlap(const Gas& gas, Time at) {
@@ -48,7 +49,7 @@ std::optional<RodOverlap> find_overlap(const Gas& gas, Time at, kernels::Isa isa
   std::vector<RodShape> shapes;
   for (Needle i{0}; i < gas.size(); ++i) {
     order.push_back(i);
-    shapes.push_back(shape_of(gas, i));
+    shapes.push_back(shape_of(gas, i, at));
   }
   State state;
   copy_state(gas, at, isa, order, state);

@@ -10,8 +10,8 @@
 
 namespace needlework {
 
-/// What needle i is, as far as overlaps go.
-RodShape shape_of(const Gas& gas, Needle i);
+/// What needle i is now, as far as overlaps go.
+RodShape shape_of(const Gas& gas, Needle i, Time now);
 
 /// By how much rods may overlap at this time, which is what rounding explains: 1e-13 of the
 /// smallest diameter, or radius where there are thin needles, what positions in this box do not

@@ -21,6 +21,7 @@
 #include "src/scene/box_edges.h"
 #include "src/scene/check.h"
 #include "src/scene/confinement.h"
+#include "src/scene/growth_plan.h"
 #include "src/scene/observable_names.h"
 
 namespace needlework {
@@ -97,7 +98,8 @@ Effects effects_of(const Scene& scene) {
       .gravity = has_gravity(scene),
       .shear = scene.shear.has_value(),
       .stress = scene.shear || std::ranges::find(scene.output.observables, pressure_tensor_name) !=
-                                   scene.output.observables.end()};
+                                   scene.output.observables.end(),
+      .growth = scene.driving.growth.has_value()};
 }
 
 Run::Run(const Scene& scene)
@@ -107,7 +109,11 @@ Run::Run(const Scene& scene)
       tc_(scene.collisions.tc),
       tc_relative_(slides_beside_walls(scene) ? scene.collisions.sliding_below
                                               : scene.collisions.tc_relative) {
-  gas.set_composition(scene.composition());
+  const Composition composition = scene.composition();
+  gas.set_composition(
+      scene.driving.growth
+          ? enlarged(composition, growth_plan(scene, composition, scene.needles.box).largest)
+          : composition);
 }
 
 void Run::add_effects(const Scene& scene) {
@@ -145,16 +151,35 @@ void Run::add_effects(const Scene& scene) {
   }
 }
 
-void Run::find_meeting_of_walls(const Scene& scene) {
+void Run::find_last_time(const Scene& scene) {
+  if (gas.growth) {
+    last_time = gas.growth->end();
+    at_last_time = growing->parameters().at_end;
+  }
   if (!gas.moving_edges) return;
   if (const auto meeting = meeting_of(scene, gas.box.edges()))
-    walls_meet = gas.clock.add({}, meeting->time);
+    last_time = gas.clock.add({}, meeting->time);
 }
 
-void Run::find_next_kick() {
-  const Time next = next_kick();
+void Run::find_next_instant() {
+  const Time next = next_instant();
   constexpr double end = std::numeric_limits<double>::infinity();
-  after_next_kick_ = {next.epoch, std::nextafter(next.offset, end)};
+  after_next_instant_ = {next.epoch, std::nextafter(next.offset, end)};
+}
+
+Growing::Parameters Run::parameters_of_growing(const Scene& scene) const {
+  // Beyond this pressure, no growth that is worth its time is left.
+  constexpr double jammed_at = 1e6, share_heated = 0.01;
+  const Scene::Growth& growth = *scene.driving.growth;
+  const double cool_every = growth.cool_every.value_or(std::max(1.0, share_heated / growth.rate));
+  const double bodies = static_cast<double>(gas.size());
+  Growing::Parameters out;
+  out.cools = cool_every > 0;
+  out.collisions = std::max(1.0, (out.cools ? cool_every : 1) * bodies);
+  out.most_pressure = growth.until_pressure.value_or(jammed_at);
+  out.at_most = growth.until_pressure ? Stop::pressure : Stop::jammed;
+  out.at_end = growth_plan(scene, scene.composition(), gas.box.edges()).end;
+  return out;
 }
 
 Run::Run(const Scene& scene, Gas initial) : Run(scene) {
@@ -176,8 +201,15 @@ Run::Run(const Scene& scene, Gas initial) : Run(scene) {
         gas.clock.epoch_length()));
   }
   for (const auto& source : sources) source->begin(gas);
-  find_meeting_of_walls(scene);
-  find_next_kick();
+  if (gas.growth) {
+    gas.growth->find_end(gas.clock);
+    Growing::Parameters parameters = parameters_of_growing(scene);
+    parameters.temperature = totals().t_tr;
+    const double free_times = 2 * parameters.collisions / static_cast<double>(gas.size());
+    growing.emplace(parameters, free_times * windows.mean_free_time(), gas.clock);
+  }
+  find_last_time(scene);
+  find_next_instant();
   for (Needle i{0}; i < gas.size(); ++i) {
     StopRequest::check_in_turn(i);
     const kernels::Flight flight = gas.records[i].flight;
@@ -218,10 +250,11 @@ double Run::usual_time_of_events(const std::vector<SumsOfSquares>& sums) const {
 }
 
 void Run::pass_window() {
-  // Walls and gravity make densities that kinetic theory does not know. The many small bounces of a
-  // pair that slides are not counted: they would shorten the mean free time and with it t_c, which
+  // Walls and gravity make densities that kinetic theory does not know, and growth those of glasses
+  // and crystals. The many small bounces of a pair that slides are not counted: they would shorten
+  // the mean free time and with it t_c, which
   // would make them smaller still, without end. Nor are crowded ones, where needles slide.
-  if (!gas.box.is_periodic() && gas.size() > 1) {
+  if ((!gas.box.is_periodic() || gas.growth) && gas.size() > 1) {
     windows.measure(tally.collisions - tally.tc_collisions - tally.sliding.crowded, gas.size(),
                     gas.clock.since_start(now));
   }
@@ -304,6 +337,10 @@ EnergyBudget Run::energy_budget() const {
   out.pairs = energy_shares.pairs(energy, tally) / needles;
   out.velocities_set = energy_shares.velocities_set() / needles;
   if (kicks) out.kicks = energy_shares.kicks() / needles;
+  if (growing) {
+    out.growth = energy_shares.growth(energy, tally) / needles;
+    out.cooling = energy_shares.cooling() / needles;
+  }
   if (!(gas.pull == Vec3d{})) {
     out.gravity = (work_of_pull(gas, sums_now()) - work_at_start) / needles;
   }
@@ -435,13 +472,43 @@ ReplacedRecords Run::kick() {
     return std::array{momentum.x, momentum.y, momentum.z};
   });
   const Vec3d of_all = Vec3d{x, y, z} * (1 / gas.mass());
-  find_next_kick();
+  find_next_instant();
   ReplacedRecords replaced = replace_velocities(
       [&](Needle i) { return gas.present(i, now).v + (changes[i].velocity - of_all); },
       [&](Needle i) { return gas.present(i, now).w + changes[i].angular_velocity; });
   energy_shares.kicked(before, energy.at_opening());
   if (const auto reason = out_of_range(numbers()); !reason.empty())
     throw InvalidStateError(fmt::format("kick {}: {}", number, reason));
+  return replaced;
+}
+
+double Run::virial() const {
+  const auto& virial = tally.virial;
+  const double taken = virial.size() > 1 ? virial.back().value() : 0;
+  return virial.empty() ? 0 : virial.front().value() - taken;
+}
+
+double Run::temperature_integral_now() const {
+  return temperature_integral.at(gas.clock, now, translational_temperature(gas, sums_now()));
+}
+
+void Run::measure_growth() {
+  growing->measure(gas.clock, now, {tally.collisions, virial(), temperature_integral_now()},
+                   static_cast<double>(gas.moving()));
+  find_next_instant();
+}
+
+ReplacedRecords Run::cool() {
+  require_images(gas, now);
+  // The energy before, to the last digit.
+  open_window_and_note_drift();
+  const double before = energy.at_opening();
+  const double factor = std::sqrt(growing->parameters().temperature / totals().t_tr);
+  gas.growth->count_from(gas.clock, now);
+  ReplacedRecords replaced =
+      replace_velocities([&](Needle i) { return gas.present(i, now).v * factor; },
+                         [&](Needle i) { return gas.present(i, now).w * factor; });
+  energy_shares.cooled(before, energy.at_opening());
   return replaced;
 }
 

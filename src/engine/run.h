@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "needlework/simulation.h"
+#include "src/effects/driving/growing.h"
 #include "src/effects/driving/kicks.h"
 #include "src/effects/event_source.h"
 #include "src/effects/sliding/sliding.h"
@@ -95,17 +96,34 @@ class Run {
   ReplacedRecords set_velocities(const std::function<Vec3d(Needle)>& velocity,
                                  const std::function<Vec3d(Needle)>& angular_velocity);
 
-  /// When all needles are kicked next; never where there are no kicks. What happens at the same
-  /// instant happens before.
-  Time next_kick() const { return kicks ? kicks->time(gas.clock, kicks_done + 1) : Time::never(); }
+  /// When all needles are kicked next, or a gas whose bodies grow is measured and cooled; never
+  /// where neither is. What happens at the same instant happens before.
+  Time next_instant() const {
+    return kicks     ? kicks->time(gas.clock, kicks_done + 1)
+           : growing ? growing->next()
+                     : Time::never();
+  }
+  /// Whether the velocities of all needles are replaced then.
+  bool replaces_velocities() const { return kicks || (growing && growing->parameters().cools); }
   /// The first time after it, up to which contacts need to be searched.
-  Time after_next_kick() const { return after_next_kick_; }
+  Time after_next_instant() const { return after_next_instant_; }
   /// Kicks all needles now, and replaces their records; see set_velocities().
   ReplacedRecords kick();
+  /// Measures a gas whose bodies grow.
+  void measure_growth();
+  /// Scales its velocities back to the temperature at the start; see kick().
+  ReplacedRecords cool();
+  /// Sum of r12 . dp over the collisions of bodies with a width, r12 between the centres. [energy]
+  double virial() const;
+  /// The integral of the translational temperature over time since the start. [energy time]
+  double temperature_integral_now() const;
 
   Gas gas;
   Time now;
-  Time walls_meet = Time::never();  ///< see Meeting
+  /// When the run ends, whatever is asked for, and why: walls meet (see Meeting), or bodies have
+  /// grown.
+  Time last_time = Time::never();
+  Stop at_last_time = Stop::walls_meet;
   Windows windows;
   EnergyAccount energy;
   EnergyShares energy_shares;
@@ -143,6 +161,7 @@ class Run {
   std::size_t objects = 0;                ///< number of them
   std::optional<Kicks> kicks;
   std::uint64_t kicks_done = 0;
+  std::optional<Growing> growing;
   Listeners listeners;
   TeamAtHand team;
   std::atomic<bool> interrupted = false;
@@ -174,9 +193,11 @@ class Run {
   void add_effects(const Scene& scene);
   void expect_energy();
   double usual_time_of_events(const std::vector<SumsOfSquares>& sums) const;
-  void find_next_kick();
-  void find_meeting_of_walls(const Scene& scene);
+  void find_next_instant();
+  void find_last_time(const Scene& scene);
+  Growing::Parameters parameters_of_growing(const Scene& scene) const;
   void transfer(Archive& archive, const std::vector<Needle>& by_id);
+  void transfer_growth(Archive& archive);
   void require_consistent() const;
   GasNumbers numbers() const;
   void set_contact_time();
@@ -184,7 +205,7 @@ class Run {
   std::optional<double> tc_, tc_relative_;
   Time looked_for_jam_;
   std::uint64_t events_then_ = 0;
-  Time after_next_kick_ = Time::never();
+  Time after_next_instant_ = Time::never();
   std::uint64_t sorted_at_ = 0;  ///< value of the counter `crossings` at the last sorting
 };
 

@@ -104,6 +104,11 @@ std::vector<double> physics_of(const Run& run, const Scene& scene) {
   if (run.gas.falls) add({run.gas.gravity.x, run.gas.gravity.y, run.gas.gravity.z});
   for (const auto& source : run.sources) add(source->parameters());
   if (run.kicks) add(run.kicks->parameters());
+  if (const auto& growth = scene.driving.growth) {
+    add({growth->rate, growth->until_packing.value_or(absent),
+         growth->until_pressure.value_or(absent), growth->cool_every.value_or(absent),
+         growth->from});
+  }
   if (run.sliding)
     out.insert(out.end(), {run.sliding->below(), run.sliding->strikes_are_elastic() ? 1. : 0.});
   if (composition.has_width()) {
@@ -265,6 +270,14 @@ void Run::require_consistent() const {
   require(std::abs(energy_of(gas, sums) - energy_by_account(sums)) <= 1e-6 * energy.at_opening());
 }
 
+void Run::transfer_growth(Archive& archive) {
+  gas.growth->transfer(archive);
+  growing->transfer(archive);
+  archive(tally.growth);
+  const double scale = gas.scale_at(now);
+  require(scale > 0 && scale <= 1 + 1e-12 && gas.growth->rate() > 0 && now <= next_instant());
+}
+
 // Needles are saved in order of id, whatever their order in storage.
 void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
   double epoch_length = gas.clock.epoch_length();
@@ -286,7 +299,7 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
   if (gas.slides) transfer_slides(archive, gas, by_id);
   archive(now);
   windows.transfer(archive);
-  if (!sources.empty() || kicks) windows.transfer_measured(archive);
+  if (!sources.empty() || kicks || effects.growth) windows.transfer_measured(archive);
   archive(initial_energy);
   expect_energy();
   energy.transfer(archive);
@@ -305,10 +318,11 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
   if (sliding) archive(tally.sliding);
   if (kicks) {
     archive(kicks_done);
-    require(kicks_done < std::uint64_t{1} << 53 && now <= next_kick());
-    find_next_kick();
+    require(kicks_done < std::uint64_t{1} << 53 && now <= next_instant());
   }
-  energy_shares.transfer(archive, sources.size(), objects, effects.shear);
+  if (effects.growth) transfer_growth(archive);
+  find_next_instant();
+  energy_shares.transfer(archive, sources.size(), objects, effects.shear, effects.growth);
   if (effects.stress) {
     archive(tally.stress, tally.flow);
     require(tally.stress.size() <= 1);
@@ -351,6 +365,10 @@ Run::Run(const Scene& scene, const Checkpoint& saved) : Run(scene) {
     require(slide >= 0 && slide <= gas.box.edge(0));
     set_shear(gas, scene, slide);
   }
+  if (effects.growth) {
+    gas.growth.emplace(1, 1);  // until it is read
+    growing.emplace(parameters_of_growing(scene));
+  }
   add_effects(scene);
   if (physics != physics_of(*this, scene)) {
     throw InputError(
@@ -371,7 +389,7 @@ Run::Run(const Scene& scene, const Checkpoint& saved) : Run(scene) {
   for (Needle i{0}; i < count; ++i) by_id[i] = i;
   transfer(archive, by_id);
   archive.require_end();
-  find_meeting_of_walls(scene);
+  find_last_time(scene);
   if (!sorted) return;
   const std::vector<Needle> order = order_in_space(gas, now);
   StopRequest::check();

@@ -126,6 +126,7 @@ std::string name_effects(const Run& run) {
   if (run.gas.falls) out += " gravity";
   if (run.kicks) out += " kicks";
   if (run.gas.shear) out += " shear";
+  if (run.growing) out += " growth";
   return out;
 }
 
@@ -260,10 +261,12 @@ struct Simulation::Implementation {
     return loop->prepare(&limits);
   }
 
-  void kick() {
+  void pass_instant() {
+    if (run.growing) run.measure_growth();
+    if (!run.replaces_velocities()) return;
     loop->keep_in_order();
-    replace([&] { return run.kick(); });
-    if (run.listeners.kick) run.listeners.kick();
+    replace([&] { return run.kicks ? run.kick() : run.cool(); });
+    if (run.kicks && run.listeners.kick) run.listeners.kick();
   }
 
   Stop advance(StopConditions limits) {
@@ -271,12 +274,14 @@ struct Simulation::Implementation {
     for (;;) {
       if (sizing) limits.pause = sizing->next();
       // What happens at the instant of a kick happens before it.
-      const Time kicked = run.next_kick();
+      const Time instant = run.next_instant();
       StopConditions before = limits;
-      before.time = std::min(limits.time, kicked);
+      before.time = std::min(limits.time, instant);
+      before.why = Stop::time;
       const auto stop = loop->advance(before);
-      if (stop == Stop::time && kicked <= limits.time) {
-        kick();
+      if (stop == Stop::time && instant <= limits.time) {
+        pass_instant();
+        if (const auto reached = limits.reached(run)) return *reached;
         if (const auto called_off = limits.called_off(run)) return *called_off;
         continue;
       }
@@ -495,17 +500,12 @@ const std::string& Simulation::placement() const { return implementation_->place
 
 double Simulation::virial() const {
   const Access self = access();
-  const auto& virial = self->run.tally.virial;
-  const double taken = virial.size() > 1 ? virial.back().value() : 0;
-  return virial.empty() ? 0 : virial.front().value() - taken;
+  return self->run.virial();
 }
 
 double Simulation::t_tr_integral() const {
   const Access self = access();
-  const Run& run = self->run;
-  const auto sums = sums_of_squares(run.gas, run.now, run.team.threads());
-  return run.temperature_integral.at(run.gas.clock, run.now,
-                                     translational_temperature(run.gas, sums));
+  return self->run.temperature_integral_now();
 }
 
 std::array<double, 3> Simulation::box() const {

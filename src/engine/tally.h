@@ -69,6 +69,7 @@ struct Tally {
 
   std::vector<StressTally> stress;  ///< one, or none where it is not measured
   Quanta flow;  ///< of `energy`, what the flow has put in, in flights that are over and collisions
+  Quanta growth;  ///< and what growth has
 
   /// Counts one more of kind `index` out of so many.
   static void count(std::vector<std::uint64_t>& counts, std::size_t index, std::size_t kinds) {
@@ -117,6 +118,7 @@ struct Tally {
     sliding.take(other.sliding);
     add(stress, other.stress);
     flow += other.flow;
+    growth += other.growth;
     other = {};
   }
 

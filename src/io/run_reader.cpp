@@ -63,7 +63,7 @@ static void transfer(Archive& archive, RecordedRun& run) {
   auto& [scene, version, needles, series, walls, pressure, energy] = run;
   archive(scene, version, needles, series, walls, pressure);
   archive(energy.pairs, energy.walls, energy.thermostat, energy.kicks, energy.gravity, energy.shear,
-          energy.velocities_set);
+          energy.growth, energy.cooling, energy.velocities_set);
 }
 
 namespace {
@@ -121,6 +121,8 @@ void read_energy_budget(const Source& source, RecordedRun& run) {
   run.energy.kicks = last("kicks");
   run.energy.gravity = last("gravity");
   run.energy.shear = last("shear");
+  run.energy.growth = last("growth");
+  run.energy.cooling = last("cooling");
   run.energy.velocities_set = last("velocities_set").value_or(0);
   if (run.walls.empty()) return;
   run.energy.walls =

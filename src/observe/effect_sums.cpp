@@ -109,6 +109,7 @@ class BudgetOfEnergy : public Observable {
     if (scene.driving.kicks) there_.kicks = 0;
     if (has_gravity_along_periodic(scene)) there_.gravity = 0;
     if (scene.shear) there_.shear = 0;
+    if (scene.driving.growth) there_.growth = there_.cooling = 0;
   }
 
   std::vector<SeriesField> fields() const override {

@@ -40,14 +40,17 @@ Tangential tangential(const kernels::ContactGeometry& c, const Vec3d& v, double 
 
 template <Surface surface>
 Impact collide(const CollidingPair& pair, const Restitution& restitution) {
-  const auto& [v_first, w_first, v_second, w_second, body_first, body_second, c, side] = pair;
+  const auto& [v_first, w_first, v_second, w_second, body_first, body_second, c, side, growth] =
+      pair;
   const double epsilon = restitution.epsilon;
   constexpr bool turns = surface != Surface::sphere;
   Vec3d v = v_first - v_second;
   if constexpr (turns) {
     v += cross(w_first, c.u_first) * c.arm_first - cross(w_second, c.u_second) * c.arm_second;
   }
+  constexpr bool may_grow = surface == Surface::wide || surface == Surface::sphere;
   double vn = dot(v, c.normal);
+  if constexpr (may_grow) vn -= growth;
   if (vn * side > 0) vn = 0;
   const double masses = body_first.inverse_mass + body_second.inverse_mass;
   double inertia_first = 0, inertia_second = 0;
@@ -65,6 +68,13 @@ Impact collide(const CollidingPair& pair, const Restitution& restitution) {
   out.normal_velocity = vn;
   out.impulse = c.normal * (-(1 + epsilon) * vn / mass);
   out.energy_change = -0.5 * (1 - epsilon * epsilon) * (vn * vn) / mass;
+  if constexpr (may_grow) {
+    if (growth != 0) {
+      out.normal_velocity += growth;
+      out.growth_work = -(1 + epsilon) * vn / mass * growth;
+      out.energy_change += out.growth_work;
+    }
+  }
   if constexpr (surface == Surface::rough) {
     const Tangential t = tangential(c, v, masses, inertia_first, inertia_second, restitution.beta);
     out.impulse += t.impulse;

@@ -10,7 +10,8 @@ namespace needlework {
 struct Impact {
   Vec3d impulse;               ///< on the first needle; the second gets the opposite [m L / time]
   double normal_velocity = 0;  ///< V_n before the collision, along (u1 x u2) / |u1 x u2|
-  double energy_change = 0;    ///< of both needles, <= 0
+  double energy_change = 0;    ///< of both needles, <= 0 but for the work of growth
+  double growth_work = 0;      ///< the part of it that growth has done
   Vec3d v_first, w_first, v_second, w_second;  ///< velocities after the collision
 };
 
@@ -23,7 +24,8 @@ struct CollidingPair {
   const Body& body_first;
   const Body& body_second;
   const kernels::ContactGeometry& contact;
-  int side;  ///< sign of r12 . (u1 x u2) before the contact; 1 for rods
+  int side;           ///< sign of r12 . (u1 x u2) before the contact; 1 for rods
+  double growth = 0;  ///< how fast growth brings surfaces of finite width together [L / time]
 };
 
 /// What needs a rule of its own.
@@ -37,7 +39,9 @@ enum class Surface {
 /// Velocities and impulse after a collision of two needles. They must approach, V_n side < 0; if
 /// rounding gives another sign, V_n counts as 0. Source: Huthmann, Aspelmeier, Zippelius, Phys.
 /// Rev. E 60, 654 (1999). For unlike needles 2 / m is replaced by 1 / m1 + 1 / m2, and each needle
-/// has its own inertia; at the caps of rods the inertia counts by |u x n|^2 < 1.
+/// has its own inertia; at the caps of rods the inertia counts by |u x n|^2 < 1. Surfaces that
+/// growth brings together at G approach at V_n - G, of which epsilon reverses a part, so that
+/// V_n becomes G + epsilon (G - V_n).
 template <Surface surface>
 Impact collide(const CollidingPair& pair, const Restitution& restitution);
 

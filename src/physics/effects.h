@@ -23,10 +23,11 @@ struct Effects {
   bool gravity = false;  ///< needles fall freely between events
   bool shear = false;    ///< rows of boxes slide
   bool stress = false;   ///< the pressure tensor is measured
+  bool growth = false;   ///< bodies grow
 
   bool any() const {
     return rough || contact_time || table || passing || width || spheres || mixed || sliding ||
-           sources || kicks || gravity || shear || stress;
+           sources || kicks || gravity || shear || stress || growth;
   }
 };
 

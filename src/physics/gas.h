@@ -15,6 +15,7 @@
 #include "src/physics/body.h"
 #include "src/physics/clock.h"
 #include "src/physics/columns.h"
+#include "src/physics/growth.h"
 #include "src/physics/ids.h"
 #include "src/physics/motion.h"
 #include "src/physics/record.h"
@@ -33,6 +34,7 @@ struct Gas {
   Box box;                     ///< its edges, and which axes are periodic: those without walls
   std::optional<Shear> shear;  ///< if rows of boxes slide
   std::optional<MovingEdges> moving_edges;  ///< if walls with a velocity move edges of the box
+  std::optional<Growth> growth;             ///< if bodies grow; sizes below are the largest ones
   Vec3d gravity{};                          ///< acceleration of all needles [L / time^2]
   bool falls = false;                       ///< gravity is not 0
   Vec3d pull{};                        ///< gravity along periodic axes, where it has no potential
@@ -67,6 +69,8 @@ struct Gas {
   Vector low_at(Time now) const {
     return moving_edges ? moving_edges->low(clock.exact_difference(now, {})) : Vector{};
   }
+  /// Present sizes as a share of those of this gas.
+  double scale_at(Time now) const { return growth ? growth->scale_at(clock, now) : 1; }
   double volume_at(Time now) const {
     const Vector edges = edges_at(now);
     return edges[0] * edges[1] * edges[2];

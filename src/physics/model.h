@@ -28,7 +28,7 @@ namespace needlework {
 ///     more where they never meet again.
 ///   `collide` is the outcome of a contact, now, of needles that approach from `side`, the second
 ///     with `shift` boxes added; `elastic` selects the rule for collisions within the contact time.
-///     It never adds energy.
+///     It adds no energy but the work of growth.
 ///   `present` is the state to which a needle's motion has led at `now`, and `renew` replaces its
 ///     record by such a state with other velocities. It adds to the needle's entry in Gas::images
 ///     the number of boxes by which its centre was wrapped, returns that number, and changes

@@ -80,7 +80,10 @@ class NeedleModel {
       out.half_first = half_length(a);
       out.half_second = half_length(b);
     }
-    if constexpr (Law::has_distance) out.distance = gas_.radius(a) + gas_.radius(b);
+    if constexpr (Law::has_distance) {
+      out.distance = gas_.radius(a) + gas_.radius(b);
+      if (gas_.growth) set_present_size(out, Gas::start_of(record_a, record_b));
+    }
     if constexpr (has_sliding) out.look_up(gas_, {a, record_a}, {b, record_b}, shift);
     return out;
   }
@@ -104,8 +107,10 @@ class NeedleModel {
       const Vec3d past = gas_.image_velocity(shift);
       const Vec3d v_first = velocity(a, now), its_velocity = velocity(b, now),
                   v_second = gas_.shear ? its_velocity + past : its_velocity;
-      const CollidingPair both{v_first, first.w, v_second, second.w,
-                               body(i), body(j), contact,  side};
+      CollidingPair both{v_first, first.w, v_second, second.w, body(i), body(j), contact, side};
+      if constexpr (Law::has_distance) {
+        if (gas_.growth) both.growth = closing_by_growth(i, j, contact, now);
+      }
       const auto in_frames_of_records = [&](Impact impact) {
         if (gas_.shear) impact.v_second = impact.v_second - past;
         return outcome(impact);
@@ -128,6 +133,25 @@ class NeedleModel {
   }
 
  private:
+  /// Of bodies that grow, how large they are at the start of the time of their pair, and how fast
+  /// they grow then. Kept out of the code of others.
+  [[gnu::noinline]] void set_present_size(typename Law::Pair& pair, Time start) const {
+    const double scale = gas_.growth->scale_at(gas_.clock, start);
+    pair.half_first *= scale;
+    pair.half_second *= scale;
+    pair.distance *= scale;
+    pair.growth = gas_.growth->relative_rate(scale);
+  }
+  /// How fast growth brings the surfaces of two bodies in contact together: the relative rate times
+  /// the distance of the centres along the normal. [L / time]
+  [[gnu::noinline]] double closing_by_growth(Needle i, Needle j,
+                                             const kernels::ContactGeometry& contact,
+                                             Time now) const {
+    const double scale = gas_.growth->scale_at(gas_.clock, now);
+    const double distance = (gas_.radius(i) + gas_.radius(j)) * scale;
+    const Vec3d arms = contact.u_first * contact.arm_first - contact.u_second * contact.arm_second;
+    return gas_.growth->relative_rate(scale) * (distance - dot(contact.normal, arms));
+  }
   template <ContactLaw Touching>
   [[gnu::always_inline]] static Impact impact(const CollidingPair& pair, const Restitution& rule) {
     if constexpr (Touching::mixes) {
@@ -145,8 +169,14 @@ class NeedleModel {
     const kernels::Flight &first = gas_.records[a].flight, &second = gas_.records[b].flight;
     Vec3d r = first.r - second.r;
     if (!same(shift, Shift{})) r = r - gas_.box.image(shift).place;
-    const Vec3d v = first.v - second.v;
-    const double speeds = std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+    Vec3d v = first.v - second.v;
+    double speeds = std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+    if (gas_.growth) {
+      const double rate =
+          gas_.growth->relative_rate(gas_.growth->scale_at(gas_.clock, gas_.records[a].time));
+      speeds += rate * (std::abs(r.x) + std::abs(r.y) + std::abs(r.z));
+      v = v - r * rate;
+    }
     // Far more than what rounds these places, and than what rounds the product.
     const double least = 0x1p-20 * (gas_.radius(a) + gas_.radius(b)) + gas_.touch_tolerance();
     return dot(r, v) > least * speeds;

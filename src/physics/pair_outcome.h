@@ -22,6 +22,7 @@ struct PairOutcome {
   bool contact_time_rule = false;  ///< the t_c rule applied
   double normal_velocity = 0;      ///< V_n before the event [L / time]
   double energy_change = 0;        ///< of both needles, of either sign
+  double growth_work = 0;          ///< the part of it that growth has done
   Vec3d impulse;  ///< on the first needle; the second gets the opposite [m L / time]
 
   bool are_bonded() const { return bond == BondChange::begins || bond == BondChange::continues; }
@@ -35,6 +36,7 @@ struct PairOutcome {
     out.side = side;
     out.normal_velocity = impact.normal_velocity;
     out.energy_change = impact.energy_change;
+    out.growth_work = impact.growth_work;
     out.impulse = impact.impulse;
     return out;
   }

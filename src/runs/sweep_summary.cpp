@@ -146,6 +146,10 @@ void add_budget(const Scene& scene, std::span<const Run> runs, PointSummary& poi
     add_result("budget_gravity", runs, point, [](const Run& run) { return run.energy.gravity; });
   if (scene.shear)
     add_result("budget_shear", runs, point, [](const Run& run) { return run.energy.shear; });
+  if (scene.driving.growth) {
+    add_result("budget_growth", runs, point, [](const Run& run) { return run.energy.growth; });
+    add_result("budget_cooling", runs, point, [](const Run& run) { return run.energy.cooling; });
+  }
 }
 
 void add_estimates(PointSummary& point, std::span<const Run> runs, const Scene& scene) {

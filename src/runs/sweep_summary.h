@@ -64,7 +64,8 @@ std::vector<PointSummary> summarise(const Grid& grid, const FinishedRun& finishe
 ///                 energy_ratio at the ends of the runs: each a group with mean [P] and
 ///                 standard_error [P]; of each wall hits_z_low, impulse_z_low, pressure_z_low
 ///                 and budget_z_low, and with walls or driving budget_pairs, budget_thermostat,
-///                 budget_kicks, budget_gravity and budget_shear
+///                 budget_kicks, budget_gravity, budget_shear,
+///                 budget_growth and budget_cooling
 ///   /series       a group for each point, 00000, 00001, ...: time [S], and the sums over all
 ///                 needles, each a group with mean and standard_error [S], [S][3] of vectors
 ///

@@ -121,7 +121,7 @@ bool exchanges_energy(const Scene& scene) {
     return wall.epsilon < 1 || wall.temperature || wall.motion;
   };
   return std::ranges::any_of(scene.walls, exchanges) || scene.driving.kicks ||
-         scene.driving.andersen || scene.shear;
+         scene.driving.andersen || scene.driving.growth || scene.shear;
 }
 
 bool is_pushed(const Scene& scene) { return exchanges_energy(scene) || has_gravity(scene); }

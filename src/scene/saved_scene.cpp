@@ -61,6 +61,10 @@ void transfer(Archive& archive, Scene::Andersen& andersen) {
                  [&](std::string_view, std::string_view, auto& member) { archive(member); });
 }
 
+void transfer(Archive& archive, Scene::Growth& growth) {
+  visit_growth(growth, [&](std::string_view, std::string_view, auto& member) { archive(member); });
+}
+
 void transfer(Archive& archive, Scene& scene) {
   visit_members(scene, [&](std::string_view, std::string_view, auto& member) { archive(member); });
   archive(scene.text, scene.places);

@@ -89,6 +89,17 @@ void visit_andersen(Andersen& andersen, Visit&& visit) {
   visit("driving", "andersen.temperature", temperature);
 }
 
+/// The same for each member of Scene::Growth that is a key.
+template <class Growth, class Visit>
+void visit_growth(Growth& growth, Visit&& visit) {
+  auto& [rate, until_packing, until_pressure, cool_every, from] = growth;
+  visit("driving", "growth.rate", rate);
+  visit("driving", "growth.until_packing", until_packing);
+  visit("driving", "growth.until_pressure", until_pressure);
+  visit("driving", "growth.cool_every", cool_every);
+  static_cast<void>(from);
+}
+
 /// The same for each member of a Scene, or of its parts. Those of all species, pairs and walls have
 /// the key "". Left out are text and places, which say where a scene comes from, and whether
 /// `threads` was chosen.
@@ -131,9 +142,10 @@ void visit_members(AnyScene& scene, Visit&& visit) {
   }
   visit("shear", "", shear);
   {
-    auto& [kicks, andersen] = driving;
+    auto& [kicks, andersen, growth] = driving;
     visit("driving", "kicks", kicks);
     visit("driving", "andersen", andersen);
+    visit("driving", "growth", growth);
   }
   {
     auto& [search, queue, accuracy, isolation, escalation, filter, root_tolerance, sampling_step,

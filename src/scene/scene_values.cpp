@@ -93,6 +93,9 @@ class Collected {
   void operator()(std::string_view, std::string_view, const Scene::Andersen& andersen) {
     visit_andersen(andersen, *this);
   }
+  void operator()(std::string_view, std::string_view, const Scene::Growth& growth) {
+    visit_growth(growth, *this);
+  }
 
   std::vector<KeyValue> values;
 

@@ -136,12 +136,17 @@ SourceEvent Walls::next(const Gas& gas, Needle i, Time now, Time until) const {
   for (std::size_t n = 0; n < walls_.size(); ++n) {
     const Wall& wall = walls_[n];
     const Body body = gas.body(i);
+    const double scale = gas.scale_at(record.time),
+                 growth = gas.growth ? gas.growth->relative_rate(scale) : 0,
+                 radius = scale * body.radius;
     // The caps of rods touch where the ends of their axes are half a diameter away.
-    const kernels::WallPlane plane = plane_at(gas.clock, wall, record.time).for_radius(body.radius);
+    const kernels::WallPlane plane =
+        plane_at(gas.clock, wall, record.time).for_radius(radius, growth * radius);
     const kernels::WallApproach approach{.flight = &record.flight,
                                          .gravity = component(gas.gravity, wall.plane.axis),
-                                         .half = body.half_length,
-                                         .radius = body.radius,
+                                         .half = scale * body.half_length,
+                                         .radius = radius,
+                                         .growth = growth,
                                          .wall = plane,
                                          .turns = turns_at(gas.clock, wall, record.time),
                                          .touching = touching(record, i, n),
@@ -201,7 +206,8 @@ SourceOutcome Walls::happen(const Gas& gas, const NeedleAt& at, std::int8_t deta
   const auto n = static_cast<std::size_t>(detail / 2);
   const Wall& wall = walls_[n];
   const Body& body = at.body;
-  const double arm = sign_of(detail % 2) * body.half_length;
+  const double scale = gas.scale_at(at.now);
+  const double arm = sign_of(detail % 2) * (scale * body.half_length);
   const double sign = wall.plane.normal;
   const Vec3d normal{wall.plane.axis == 0 ? sign : 0, wall.plane.axis == 1 ? sign : 0,
                      wall.plane.axis == 2 ? sign : 0};
@@ -213,7 +219,15 @@ SourceOutcome Walls::happen(const Gas& gas, const NeedleAt& at, std::int8_t deta
   out.changes_motion = true;
   out.object = static_cast<std::uint32_t>(n);
   out.arm = arm;
-  out.normal_velocity = std::min(0.0, tip - sign * surface);
+  // How fast growth brings the body's surface to the wall: what the distance of the centre from
+  // the wall grows by.
+  double growth = 0;
+  if (gas.growth) {
+    growth =
+        gas.growth->relative_rate(scale) * (scale * body.radius - arm * dot(at.director, normal));
+  }
+  const double approach = std::min(0.0, (tip - growth) - sign * surface);
+  out.normal_velocity = approach + growth;
   if (contact_time_.rule) {
     const bool is_strike = contact_time_.elastic_strikes && at.record.is_sliding();
     out.contact_time_rule = !(wall.temperature > 0) &&
@@ -228,12 +242,13 @@ SourceOutcome Walls::happen(const Gas& gas, const NeedleAt& at, std::int8_t deta
   } else {
     const double mobility = mobility_of(body, arm, component(at.director, wall.plane.axis));
     const double epsilon = out.contact_time_rule ? 1 : wall.epsilon;
-    const double impulse = -(1 + epsilon) * out.normal_velocity / mobility;
+    const double impulse = -(1 + epsilon) * approach / mobility;
     out.velocity = at.velocity + normal * (impulse / body.mass);
     out.angular_velocity = at.angular_velocity + turn_by(body, at.director, normal, arm, impulse);
     out.impulse = normal * impulse;
     out.normal_impulse = impulse;
     out.work = impulse * (sign * surface);
+    out.growth_work = impulse * growth;
     // A sphere that does not rebound from a wall moves with it from then on, to the last digit.
     if (wall.edge.moves() && epsilon == 0 && !body.turns())
       set_component(out.velocity, wall.plane.axis, surface);
