@@ -118,7 +118,7 @@ struct Frame {
   double r_norm = 0, v_norm = 0, w_sum = 0;  ///< |r|, |v| and omega1 + omega2, not below
   double v_length = 0;                       ///< 2-norm of v, not below
   double half[2] = {0.5, 0.5};               ///< half lengths
-  T growth{};  ///< of bodies that grow (kernels/rod_pair.h), per scaled time; r and v are comoving
+  double growth = 0;  ///< of bodies that grow (kernels/rod_pair.h), per scaled time
 };
 
 template <class T>

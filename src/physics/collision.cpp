@@ -69,7 +69,7 @@ Impact collide(const CollidingPair& pair, const Restitution& restitution) {
   out.impulse = c.normal * (-(1 + epsilon) * vn / mass);
   out.energy_change = -0.5 * (1 - epsilon * epsilon) * (vn * vn) / mass;
   if constexpr (may_grow) {
-    if (growth != 0) {
+    if (growth > 0) {
       out.normal_velocity += growth;
       out.growth_work = -(1 + epsilon) * vn / mass * growth;
       out.energy_change += out.growth_work;
