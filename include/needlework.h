@@ -455,6 +455,28 @@ typedef struct needlework_contacts {
 NEEDLEWORK_API int needlework_get_contacts(needlework_simulation* simulation,
                                            needlework_contacts* contacts);
 
+/* ---- Growth ---------------------------------------------------------------------------------- */
+
+/* Sizes, packing and pressure of bodies that grow. */
+typedef struct needlework_growth {
+  /* numbers of growth */
+  /* Present sizes of bodies in those of the start */
+  double scale;
+  /* What this scale gains in a unit of time [per time] */
+  double rate;
+  /* Share of the volume of the box that bodies take up now */
+  double packing_fraction;
+  /* P V / (N T) by the virial, as it was last measured, over the collisions between two times at
+   * which velocities were scaled back; NaN before */
+  double pressure;
+  /* end of numbers */
+} needlework_growth;
+
+/* Copies what is known of bodies that grow; in a scene without driving.growth the scale is 1, the
+ * rate 0 and the pressure NaN. [handle] */
+NEEDLEWORK_API int needlework_get_growth(needlework_simulation* simulation,
+                                         needlework_growth* growth);
+
 /* ---- Pressure tensor ------------------------------------------------------------------------- */
 
 /* Pressure tensor since the start, a mean over the run. The first letter of an index is the axis
@@ -590,6 +612,10 @@ typedef struct needlework_energy_budget {
   double gravity;
   /* Energy by uniform shear [energy] */
   double shear;
+  /* Energy by growth, which pushes bodies apart [energy] */
+  double growth;
+  /* Energy by velocities that are scaled back as bodies grow [energy] */
+  double cooling;
   /* end of numbers */
 } needlework_energy_budget;
 

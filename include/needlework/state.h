@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,8 @@ struct State {
                                                    ///< others, walls or open sides end it
   double slide = 0;       ///< of the row of boxes above along x, from 0 to the edge [L]
   double shear_rate = 0;  ///< of the uniform flow, rate * y along x, that they have [1 / time]
+  std::optional<double> scale;  ///< of bodies that grow, their sizes, which are in bodies and
+                                ///< own_bodies, in those of the start; a start needs it not [1]
   std::vector<std::array<double, 3>> position;           ///< centres, inside the box or not [L]
   std::vector<std::array<double, 3>> velocity;           ///< [L / time]
   std::vector<std::array<double, 3>> peculiar_velocity;  ///< beside the flow of [shear], whichever

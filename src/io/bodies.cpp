@@ -137,4 +137,30 @@ OwnBodies read_own_bodies(const Source& source, std::size_t needles) {
   return out;
 }
 
+void enlarge(State& state, double scale) {
+  Bodies& bodies = state.bodies;
+  OwnBodies& own = state.own_bodies;
+  const auto fill = [&](std::vector<double>& rows, const std::vector<double>& of_species) {
+    if (!rows.empty() || of_species.empty()) return;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      const std::size_t species = state.species.empty() ? 0 : state.species[i];
+      rows.push_back(of_species[std::min(species, of_species.size() - 1)]);
+    }
+  };
+  std::vector<double> inertias;
+  for (std::size_t n = 0; n < std::min({bodies.length.size(), bodies.mass.size(), bodies.k.size()});
+       ++n) {
+    const double length = bodies.length[n];
+    inertias.push_back(length > 0 ? bodies.mass[n] * (length * length) / (2 * bodies.k[n]) : 0);
+  }
+  fill(own.length, bodies.length);
+  fill(own.diameter, bodies.diameter);
+  fill(own.mass, bodies.mass);
+  fill(own.inertia, inertias);
+  for (std::vector<double>* sizes : {&bodies.length, &bodies.diameter, &own.length, &own.diameter})
+    for (double& size : *sizes) size *= scale;
+  for (double& k : bodies.k) k *= scale * scale;
+  state.scale = scale;
+}
+
 }  // namespace needlework::io

@@ -254,6 +254,13 @@ std::vector<Description> moving_wall_descriptions() {
            length, "[frames][3]"}};
 }
 
+std::vector<Description> growth_descriptions() {
+  return {{"/particles/needles/box/scale",
+           "Sizes of all bodies in those of the start, which are in the parameters and in length "
+           "and diameter of the needles",
+           none, "[frames]"}};
+}
+
 std::vector<Description> shear_descriptions() {
   return {{"/particles/needles/box",
            "Box whose rows of images slide along x; shear_rate is that of the flow, rate * y", none,

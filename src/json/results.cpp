@@ -104,6 +104,10 @@ void add_contacts(Json& json, const Simulation& simulation) {
   if (const auto contacts = simulation.sliding_contacts()) add_numbers(json["contacts"], *contacts);
 }
 
+void add_growth(Json& json, const Simulation& simulation) {
+  if (const auto growth = simulation.growth()) add_numbers(json["growth"], *growth);
+}
+
 void add_stress(Json& json, const Simulation& simulation) {
   if (const auto stress = simulation.stress()) add_numbers(json["pressure_tensor"], *stress);
 }

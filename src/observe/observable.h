@@ -75,6 +75,7 @@ struct GasSetting {
   double inertia = 1;       ///< I = m L^2 / (2 k)
   bool is_sheared = false;  ///< rows of boxes slide, if only by what they have at the start
   double shear_rate = 0;    ///< of the uniform flow [1 / time]
+  bool grows = false;       ///< whether bodies do; sizes are those of the start
   std::array<int, 3> cells{1, 1, 1};
   std::vector<Slabs> wall_slabs;  ///< across each axis with walls
   Composition composition;
@@ -98,7 +99,8 @@ std::vector<SeriesField::Extent> by_pair(const Composition& composition,
                                          std::vector<SeriesField::Extent> shape);
 
 /// Sums by species at one instant, collisions of each two by Composition::pair_index, hits on
-/// walls, what has changed the energy, the virial of rods, contacts, and the pressure tensor.
+/// walls, what has changed the energy, the virial of rods, contacts, the pressure tensor, and
+/// sizes.
 struct SpeciesSums {
   std::vector<SpeciesTotals> totals = {};
   std::vector<std::uint64_t> collisions = {};
@@ -108,6 +110,7 @@ struct SpeciesSums {
   double t_tr_integral = 0;       ///< of rods, Simulation::t_tr_integral()
   SlidingContacts contacts = {};  ///< of needles that slide on each other
   StressSums stress = {};         ///< where it is measured
+  GrowthTotals growth = {};       ///< of bodies that grow
 };
 
 /// The gas at one instant. Holds references.

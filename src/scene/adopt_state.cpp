@@ -234,7 +234,24 @@ void adopt_bodies(Scene& scene, const Bodies& bodies) {
   }
 }
 
+// Rows that say of each body what its species says, as files of bodies that grow have them.
+static void drop_equal_rows(State& state) {
+  const Bodies& bodies = state.bodies;
+  const auto are_equal = [&](const std::vector<double>& rows, const std::vector<double>& known) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const std::size_t species = state.species.empty() ? 0 : state.species[i];
+      if (species >= known.size() || rows[i] != known[species]) return false;
+    }
+    return true;
+  };
+  const OwnBodies& own = state.own_bodies;
+  if (are_equal(own.length, bodies.length) && are_equal(own.diameter, bodies.diameter) &&
+      are_equal(own.mass, bodies.mass))
+    state.own_bodies = {};
+}
+
 void adopt_state(Scene& scene, State& state) {
+  if (state.scale) drop_equal_rows(state);
   if (state.own_bodies.empty()) require_nothing_drawn(scene, state.bodies);
   adopt_bodies(scene, state.bodies);
   require_rules(scene, Aspect::species | Aspect::bodies | Aspect::pairs | Aspect::effects);
@@ -244,14 +261,15 @@ void adopt_state(Scene& scene, State& state) {
   if (scene.places.contains("needles.box")) require_rules(scene, Aspect::room);
 }
 
-Bodies bodies_of(const Composition& composition) {
+Bodies bodies_of(const Composition& composition, double scale) {
   Bodies bodies;
   for (const Species& each : composition.species()) {
     if (composition.is_mixture()) bodies.names.push_back(each.name);
     for (const auto& [key, known, value] : dimensions) {
-      (bodies.*known).push_back(value == &Species::mass ? each.mass_or_infinity() : each.*value);
+      (bodies.*known)
+          .push_back(value == &Species::mass ? each.mass_or_infinity() : each.*value * scale);
     }
-    bodies.k.push_back(each.k);
+    bodies.k.push_back(each.k * (scale * scale));
   }
   return bodies;
 }

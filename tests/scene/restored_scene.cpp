@@ -95,6 +95,9 @@ TEST(RestoredScene, HasAllKeys) {
                            "needles = { count = 1, box = 3 }\nuntil.time = 1\n"
                            "driving.andersen = { rate = 0.5, temperature = 2 }\n"
                            "shear = { rate = 0.1, offset = 2 }",
+                           "needles = { count = 1, box = 3, diameter = 0.1 }\nuntil.time = 1\n"
+                           "driving.growth = { rate = 0.5, until_packing = 0.4, "
+                           "until_pressure = 9, cool_every = 3 }\n",
                            "needles = { count = 1, box = 3 }\nuntil.time = 1\n"
                            "[[walls]]\naxis = 'z'\nside = 'high'\n"
                            "motion = { velocity = -1, stop_at = 2 }\n"

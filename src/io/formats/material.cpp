@@ -198,6 +198,14 @@ double farthest_end(const std::vector<Species>& all, const State& state) {
   return longest / 2;
 }
 
+Material grown(Material material, const State& state) {
+  const double scale = state.scale.value_or(1);
+  for (std::vector<double>* sizes : {&material.length, &material.diameter})
+    for (double& size : *sizes) size *= scale;
+  for (double& k : material.k) k *= scale * scale;
+  return material;
+}
+
 bool has_width(const Material& material) { return !material.diameter.empty(); }
 
 bool are_spheres(const Material& material) {
