@@ -182,7 +182,7 @@ Run::Run(const Scene& scene, Gas initial) : Run(scene) {
     StopRequest::check_in_turn(i);
     const kernels::Flight flight = gas.records[i].flight;
     renew_record(gas, i, now, {gas.motion(gas.records[i]).centre(0), flight.v, flight.u, flight.w},
-                 gas.body(i).extent());
+                 gas.body(i));
   }
   open_window();
   initial_energy = present_energy();
@@ -377,9 +377,8 @@ ReplacedRecords Run::replace_velocities(const std::function<Vec3d(Needle)>& velo
     const kernels::BodyState present = gas.present(i, now);
     if (effects.stress) count(flight_carries(gas, i, now), tally);
     if (gas.peculiar_x) (*gas.peculiar_x)[i] += gas.way_beside_flow(i, now);
-    entry.wraps =
-        renew_record(gas, i, now, {present.r, velocity(i), present.u, angular_velocity(i)},
-                     gas.body(i).extent());
+    entry.wraps = renew_record(
+        gas, i, now, {present.r, velocity(i), present.u, angular_velocity(i)}, gas.body(i));
   }
   open_window();
   return replaced;
@@ -422,8 +421,7 @@ ReplacedRecords Run::kick() {
   kernels::in_parallel(gas.size(), team.threads(), [&](std::size_t begin, std::size_t end) {
     for (Needle i(begin); i < end; ++i) {
       if (gas.is_fixed(i)) continue;
-      changes[i] = kicks->change(gas.ids[i], number, gas.present(i, now).u);
-      if (!gas.body(i).turns()) changes[i].angular_velocity = {};
+      changes[i] = kicks->change(gas.ids[i], number, gas.body(i), gas.present(i, now).u);
     }
   });
   // Fixed bodies take up any momentum, so that the sum is not kept.

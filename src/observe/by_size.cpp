@@ -36,7 +36,7 @@ struct Classes {
 
 double size_of(const SpeciesById& needles, std::size_t row, const Species& species) {
   const OwnBodies& own = needles.own();
-  if (species.turns()) return own.empty() ? species.length : own.length[row];
+  if (species.has_axis()) return own.empty() ? species.length : own.length[row];
   return own.empty() ? species.diameter : own.diameter[row];
 }
 

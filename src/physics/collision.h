@@ -28,16 +28,18 @@ struct CollidingPair {
 
 /// What needs a rule of its own.
 enum class Surface {
-  smooth,  ///< beta = -1
-  rough,   ///< any beta
-  wide,    ///< smooth rods of finite width, whose normal need not be normal to the directors
-  sphere   ///< smooth spheres, which nothing turns
+  smooth,       ///< beta = -1
+  rough,        ///< any beta
+  wide,         ///< smooth rods of finite width, whose normal need not be normal to the directors
+  sphere,       ///< smooth spheres, which nothing turns
+  rough_sphere  ///< spheres and any beta
 };
 
 /// Velocities and impulse after a collision of two needles. They must approach, V_n side < 0; if
 /// rounding gives another sign, V_n counts as 0. Source: Huthmann, Aspelmeier, Zippelius, Phys.
 /// Rev. E 60, 654 (1999). For unlike needles 2 / m is replaced by 1 / m1 + 1 / m2, and each needle
-/// has its own inertia; at the caps of rods the inertia counts by |u x n|^2 < 1.
+/// has its own inertia; at the caps of rods the inertia counts by |u x n|^2 < 1. Rough spheres:
+/// Huthmann, Zippelius, Phys. Rev. E 56, R6275 (1997); V_n does not depend on their spins.
 template <Surface surface>
 Impact collide(const CollidingPair& pair, const Restitution& restitution);
 

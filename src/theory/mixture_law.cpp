@@ -54,7 +54,7 @@ constexpr int angles = 48;
 // The contact points that one body has: of each, the moment of inertia's share, s^2 / I normal to
 // the direction of the impulse, and a weight [L, or 1 for caps].
 std::vector<Node> along_axis(const Species& species, double masses) {
-  if (!species.turns()) return {};
+  if (!species.has_axis()) return {};
   const double half = species.length / 2;
   const double feature = std::sqrt(1 + half * half / species.inertia() / masses);
   std::vector<Node> out = graded_rule(half, 0.02 * half / feature);
@@ -67,7 +67,7 @@ std::vector<Node> along_axis(const Species& species, double masses) {
 
 // All directions of the impulse are alike for a cap: (L/2)^2 (1 - mu^2), mu uniform.
 std::vector<Node> of_caps(const Species& species, double masses) {
-  if (!species.turns()) return {{0, 1}};
+  if (!species.has_axis()) return {{0, 1}};
   const double square = 0.25 * species.length * species.length / species.inertia();
   std::vector<Node> out = graded_rule(1, 0.02 / (1 + square / masses));
   for (auto& [x, weight] : out) x = square * (x * (2 - x));

@@ -125,7 +125,7 @@ std::array<WallRates, 3> wall_rates(const Species& species, const std::array<dou
       if (!walled[axis]) continue;
       const double others = width[(axis + 1) % 3] * width[(axis + 2) % 3];
       // L^2 / (4 I) (1 - u_n^2)
-      const double turn = species.turns() ? 0.5 * species.k * (1 - u[axis] * u[axis]) : 0;
+      const double turn = species.has_axis() ? 0.5 * species.k * (1 - u[axis] * u[axis]) : 0;
       const double energy = now.t_tr + now.t_rot * turn;  // m times the variance
       const auto [hits, force] = onto(advance, energy, species.mass);
       out[axis].hits += weight * others * hits;

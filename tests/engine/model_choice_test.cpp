@@ -17,7 +17,7 @@ std::string model_of(const Effects& effects) {
   try {
     return with_model(effects, []<class M>() -> std::string {
       EXPECT_TRUE(M::has_effects || !M::has_sliding);
-      return !M::Law::turns         ? "spheres"
+      return !M::Law::has_axes      ? "spheres"
              : M::Law::mixes        ? "mixed"
              : M::Law::has_distance ? "rods"
              : M::has_sliding       ? "sliding"
