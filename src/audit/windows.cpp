@@ -27,7 +27,7 @@ Instant later(const Instant& time, double epochs) {
 std::vector<Temperatures> temperatures_of(std::span<const Needle> needles,
                                           std::span<const AuditedBody> bodies) {
   struct Squares {
-    long double count = 0, v2 = 0, w2 = 0;  // weighted by m, and by m L^2 / k
+    long double count = 0, v2 = 0, w2 = 0;  // weighted by m, and by m L^2 / k: 0 of spheres
   };
   std::vector<Squares> sums(bodies.size());
   for (const Needle& needle : needles) {
@@ -54,9 +54,8 @@ double energy_of(std::span<const Needle> needles) {
   long double sum = 0;
   for (const Needle& needle : needles) {
     const auto v = to<long double>(needle.record.v), w = to<long double>(needle.record.w);
-    const long double length = needle.body.length;
     sum += needle.body.moving_mass() *
-           (dot(v, v) + length * length / (2 * needle.body.k) * dot(w, w)) / 2;
+           (dot(v, v) + needle.body.inertia_per_mass<long double>() * dot(w, w)) / 2;
   }
   return static_cast<double>(sum);
 }

@@ -27,7 +27,7 @@ namespace needlework {
 namespace {
 
 bool is_at_rest(const Record& record) {
-  return record.flight.v == Vec3d{} && record.flight.w == Vec3d{};
+  return record.flight.v == Vec3d{} && record.flight.omega == 0;
 }
 
 // The walls in the order in which reports count them.
@@ -485,7 +485,8 @@ std::optional<Collisionless> Run::collisionless() const {
   if (gas.shear && gas.size() > 1) return std::nullopt;
   const auto state_of = [&](std::size_t i) {
     const kernels::Flight& flight = gas.records[i].flight;
-    return kernels::BodyState{flight.r, flight.v, flight.u, flight.w};
+    // Spheres do not meet by turning.
+    return kernels::BodyState{flight.r, flight.v, flight.u, flight.omega > 0 ? flight.w : Vec3d{}};
   };
   // Of width, only those touch nothing that have no motion relative to each other. Spheres that
   // have begun on a lattice have equal directors, so that to look for other reasons would take

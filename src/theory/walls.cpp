@@ -189,7 +189,7 @@ double kick_power(const Composition& composition, double translational, double r
     count += needles;
     mass += needles * each.mass;
     squares += needles * each.mass * each.mass * (1 + width * width);
-    inertia += needles * each.inertia();
+    inertia += needles * (0.5 * each.rotations() * each.inertia());
   }
   if (count == 0) return 0;
   const double taken_off = composition.has_fixed() ? 0 : squares / mass;

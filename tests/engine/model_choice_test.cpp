@@ -42,8 +42,7 @@ TEST(ModelChoice, LeavesNoEffectOut) {
     for (std::size_t n = 0; n < std::size(all); ++n) effects.*all[n] = (set >> n & 1u) != 0;
     const bool impossible =
         ((effects.spheres || effects.mixed) && !effects.width) ||
-        (effects.spheres && effects.mixed) || (effects.width && effects.rough && !effects.mixed) ||
-        (effects.width && effects.sliding) ||
+        (effects.spheres && effects.mixed) || (effects.width && effects.sliding) ||
         (effects.sliding &&
          (effects.rough || effects.contact_time || effects.shear || effects.stress));
     const std::string expected = impossible        ? "none"
