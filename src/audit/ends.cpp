@@ -119,9 +119,10 @@ void Audit::check_start(const Scene& scene, const State* given) {
       const double count = static_cast<double>(species.count);
       if (count == 0) continue;
       t_tr += count * species.t_tr * scale;
-      t_rot += count * species.t_rot * scale;
+      const double rotations = count * bodies_[index].rotations();
+      t_rot += rotations * species.t_rot * scale;
       found_tr += count * found[index].t_tr;
-      found_rot += count * found[index].t_rot;
+      found_rot += rotations * found[index].t_rot;
     }
     Vector<double> momentum{};
     double most = 0;

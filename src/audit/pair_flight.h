@@ -24,6 +24,8 @@ struct AuditedBody {
   double q = 0;         ///< 4 I / (m D^2) of rough spheres
 
   bool has_axis() const { return length > 0; }
+  /// Over so many components of the spin a rotational temperature is.
+  int rotations() const { return has_axis() ? 2 : 3; }
   /// Its mass in sums over all that move: 0 of fixed ones, whose mass is infinite.
   double moving_mass() const { return std::isinf(mass) ? 0 : mass; }
   double extent() const { return length + diameter; }  ///< from end to end [L]

@@ -200,10 +200,11 @@ Shift add_boxes(const Gas& gas, Needle i, const Boxes& boxes);
 /// forgotten. Returns the number of boxes by which the centre was wrapped. Throws
 /// InvalidStateError, and changes nothing, if that makes too many; see add_boxes().
 Shift renew_record(Gas& gas, Needle i, Time now, const kernels::BodyState& state, const Body& body);
-/// What of an angular velocity a body with this director can have: a sphere all of it, a rod none
-/// about its axis.
+/// What of an angular velocity a body with this director can have: a rod none about its axis, a
+/// rough sphere all, a smooth one nothing.
 inline Vec3d turned(const Body& body, const Vec3d& w, const Vec3d& director) {
-  return body.has_axis() ? project_out(w, director) : w;
+  if (body.has_axis()) return project_out(w, director);
+  return body.turns() ? w : Vec3d{};
 }
 /// Fills in how the director turns by w, which is normal to it; that of a sphere is at rest.
 void set_rotation(kernels::Flight& flight, const Body& body);

@@ -19,7 +19,6 @@ Kicks::Change Kicks::change(Id id, std::uint64_t n, const Body& body, const Vec3
   const double root = std::sqrt(parameters_.every);
   Change out;
   out.velocity = vector_of(random.normal()) * (parameters_.translational * root);
-  if (!body.turns()) return out;
   out.angular_velocity =
       turned(body, vector_of(random.normal()) * (parameters_.rotational * root), director);
   return out;
