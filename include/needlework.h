@@ -101,8 +101,8 @@ typedef struct needlework_initial {
   needlework_const_vectors position;          /* centres, inside the box or not */
   needlework_const_vectors velocity;          /* absent: all 0 */
   needlework_const_vectors orientation;       /* directors, of any length but 0 */
-  needlework_const_vectors angular_velocity;  /* of which the part normal to the director counts;
-                                                 absent: all 0 */
+  needlework_const_vectors angular_velocity;  /* of which the part normal to the director counts,
+                                                 of spheres all; absent: all 0 */
   const uint32_t* id;                         /* distinct; NULL: 0 to count - 1 */
   needlework_const_vectors peculiar_velocity; /* in place of velocity, which must be absent:
                                                  beside the flow of [shear] */
@@ -693,7 +693,8 @@ typedef struct needlework_bodies {
   const double* length;   /* of the axes, without the caps */
   const double* diameter; /* 0: thin needles */
   const double* mass;     /* infinite of fixed needles */
-  const double* inertia;  /* about axes through the centre, normal to the needle's; 0 of spheres */
+  const double* inertia;  /* about axes through the centre, normal to the needle's; 0 of smooth
+                             spheres */
 } needlework_bodies;
 
 /* needlework_create_with_species() for such bodies, by the rows of `initial`. NULL: the needles of

@@ -27,16 +27,17 @@
 namespace needlework::kernels {
 
 /// A needle's free flight since its record: r(t) = r + v t, u(t) = u cos(|w| t) + p sin(|w| t).
+/// Of a sphere u is at rest, as it marks nothing.
 struct Flight {
   Vec3d r;           ///< centre [L]
   Vec3d v;           ///< velocity [L / time]
   Vec3d u;           ///< director
-  Vec3d w;           ///< angular velocity, normal to u [1 / time]
+  Vec3d w;           ///< angular velocity, normal to u unless it is that of a sphere [1 / time]
   Vec3d p;           ///< w x u / |w|, or 0
-  double omega = 0;  ///< |w|
+  double omega = 0;  ///< |w|; 0 of spheres
 };
 
-/// Fills in p and omega from u and w.
+/// Fills in p and omega from u and w, of a needle or rod.
 void set_rotation(Flight& flight);
 
 /// Centre and director after `elapsed`.

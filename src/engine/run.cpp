@@ -28,7 +28,7 @@ namespace needlework {
 namespace {
 
 bool is_at_rest(const Record& record) {
-  return record.flight.v == Vec3d{} && record.flight.w == Vec3d{};
+  return record.flight.v == Vec3d{} && record.flight.omega == 0;
 }
 
 // The walls in the order in which reports count them.
@@ -215,7 +215,7 @@ Run::Run(const Scene& scene, Gas initial) : Run(scene) {
     StopRequest::check_in_turn(i);
     const kernels::Flight flight = gas.records[i].flight;
     renew_record(gas, i, now, {gas.motion(gas.records[i]).centre(0), flight.v, flight.u, flight.w},
-                 gas.body(i).extent());
+                 gas.body(i));
   }
   open_window();
   initial_energy = present_energy();
@@ -415,9 +415,8 @@ ReplacedRecords Run::replace_velocities(const std::function<Vec3d(Needle)>& velo
     const kernels::BodyState present = gas.present(i, now);
     if (effects.stress) count(flight_carries(gas, i, now), tally);
     if (gas.peculiar_x) (*gas.peculiar_x)[i] += gas.way_beside_flow(i, now);
-    entry.wraps =
-        renew_record(gas, i, now, {present.r, velocity(i), present.u, angular_velocity(i)},
-                     gas.body(i).extent());
+    entry.wraps = renew_record(
+        gas, i, now, {present.r, velocity(i), present.u, angular_velocity(i)}, gas.body(i));
   }
   open_window();
   return replaced;
@@ -460,8 +459,7 @@ ReplacedRecords Run::kick() {
   kernels::in_parallel(gas.size(), team.threads(), [&](std::size_t begin, std::size_t end) {
     for (Needle i(begin); i < end; ++i) {
       if (gas.is_fixed(i)) continue;
-      changes[i] = kicks->change(gas.ids[i], number, gas.present(i, now).u);
-      if (!gas.body(i).turns()) changes[i].angular_velocity = {};
+      changes[i] = kicks->change(gas.ids[i], number, gas.body(i), gas.present(i, now).u);
     }
   });
   // Fixed bodies take up any momentum, so that the sum is not kept.
@@ -561,7 +559,8 @@ std::optional<Collisionless> Run::collisionless() const {
   if (gas.shear && gas.size() > 1) return std::nullopt;
   const auto state_of = [&](std::size_t i) {
     const kernels::Flight& flight = gas.records[i].flight;
-    return kernels::BodyState{flight.r, flight.v, flight.u, flight.w};
+    // Spheres do not meet by turning.
+    return kernels::BodyState{flight.r, flight.v, flight.u, flight.omega > 0 ? flight.w : Vec3d{}};
   };
   // Of width, only those touch nothing that have no motion relative to each other. Spheres that
   // have begun on a lattice have equal directors, so that to look for other reasons would take

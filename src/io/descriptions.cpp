@@ -140,8 +140,8 @@ std::vector<Description> run_file_descriptions() {
       {"/particles/needles/orientation", "Unit vector along each needle", none,
        "[frames][needles][3]"},
       {"/particles/needles/angular_velocity",
-       "Angular velocity of each needle, perpendicular to its orientation", angular_speed,
-       "[frames][needles][3]"},
+       "Angular velocity of each needle, perpendicular to its orientation but for spheres",
+       angular_speed, "[frames][needles][3]"},
       {"/particles/needles/id", "Identity of each needle, the same in all frames", none,
        "[needles]"},
       {"/particles/needles/mass", "Mass of each needle", "mass", "[needles]"},
@@ -405,8 +405,8 @@ std::vector<Description> vtkhdf_descriptions() {
       {"/VTKHDF/CellData/velocity", "Velocity of the centre of each needle", speed, "[needles][3]"},
       {"/VTKHDF/CellData/orientation", "Unit vector along each needle", none, "[needles][3]"},
       {"/VTKHDF/CellData/angular_velocity",
-       "Angular velocity of each needle, perpendicular to its orientation", angular_speed,
-       "[needles][3]"},
+       "Angular velocity of each needle, perpendicular to its orientation but for spheres",
+       angular_speed, "[needles][3]"},
   };
 }
 

@@ -22,8 +22,8 @@
 namespace needlework {
 
 static void transfer(Archive& archive, Bodies& bodies) {
-  auto& [names, length, diameter, mass, k] = bodies;
-  archive(names, length, diameter, mass, k);
+  auto& [names, length, diameter, mass, k, q] = bodies;
+  archive(names, length, diameter, mass, k, q);
 }
 
 static void transfer(Archive& archive, OwnBodies& bodies) {
@@ -160,7 +160,6 @@ State FrameReader::read(std::size_t frame) {
   for (auto& image : state.image) image = tilt.counted(image);
   if (has("id")) state.id = read_ids();
   if (has("species")) state.species = read_species();
-  require_needles(state);
   state.bodies = bodies();
   state.own_bodies = read_own_bodies(source_, needles_);
   // Files do not write it for thin needles.
@@ -169,6 +168,7 @@ State FrameReader::read(std::size_t frame) {
       std::ranges::all_of(state.bodies.diameter, [](double diameter) { return diameter == 0; });
   if (!own.empty() && own.diameter.empty() && are_thin) own.diameter.assign(needles_, 0);
   if (has("box/scale")) enlarge(state, read_scale());
+  require_needles(state);
   return state;
 }
 
@@ -389,6 +389,13 @@ std::vector<std::uint32_t> FrameReader::read_ids() {
   return ids;
 }
 
+// Whether the file says that it is one, whose director marks nothing.
+static bool is_sphere(const State& state, std::size_t i) {
+  if (!state.own_bodies.length.empty()) return state.own_bodies.length[i] == 0;
+  const std::size_t species = state.species.empty() ? 0 : state.species[i];
+  return species < state.bodies.length.size() && state.bodies.length[species] == 0;
+}
+
 void FrameReader::require_needles(const State& state) {
   const auto show = [&](const char* name, std::size_t i, const Vector& v) {
     const Element& source = element(name);
@@ -403,6 +410,7 @@ void FrameReader::require_needles(const State& state) {
              fmt::format(", of length {}: expected a unit vector, within {}", length_of(u),
                          director_tolerance));
     }
+    if (is_sphere(state, i)) continue;
     if (const double part = part_along(w, u); !(std::abs(part) <= director_tolerance)) {
       reject(show("angular_velocity", i, w),
              fmt::format(", of which {} of its length along the director: expected none, within {}",

@@ -33,7 +33,7 @@ Json spread_json(const Spread& spread, Json drawn) {
 
 Json k_of(const Species& species) {
   if (species.fixed) return nullptr;
-  return species.sizes && species.turns() ? species.sizes->k.mean : species.k;
+  return species.sizes && species.has_axis() ? species.sizes->k.mean : species.k;
 }
 
 void add_sizes(Json& json, const Species& species) {

@@ -72,7 +72,8 @@ struct GasSetting {
   Box box;                  ///< at the start, if walls move edges
   double length = 1;        ///< the longest extent [L]
   double mass = 1;          ///< of one species the mean, of several none
-  double inertia = 1;       ///< I = m L^2 / (2 k)
+  double inertia = 1;       ///< I = m L^2 / (2 k), or q m D^2 / 4 of rough spheres
+  int rotations = 2;        ///< rotational degrees of freedom; 3 of rough spheres
   bool is_sheared = false;  ///< rows of boxes slide, if only by what they have at the start
   double shear_rate = 0;    ///< of the uniform flow [1 / time]
   bool grows = false;       ///< whether bodies do; sizes are those of the start
@@ -84,6 +85,8 @@ struct GasSetting {
   /// The edges of the box as walls with a velocity move them, where there are some.
   std::optional<MovingEdges> moving_edges;
 
+  /// The rotational temperature with this mean square of the angular velocity, of one species.
+  double t_rot(double w2) const { return inertia * w2 / rotations; }
   double volume() const { return box.volume(); }
   double volume_at(double time) const;
   /// The mean between two times since the start of the scene.

@@ -52,6 +52,7 @@ GasSetting GasSetting::of_species(std::size_t index) const {
   out.length = species.greatest_extent();
   out.mass = species.mass;
   out.inertia = species.inertia();
+  out.rotations = std::max(2, species.rotations());  // smooth spheres have a temperature of 0
   out.composition = Composition({species}, composition.restitution(index, index));
   out.species_by_id = {};
   return out;

@@ -80,6 +80,16 @@ double k_of(const Scene& scene, const Species& body, std::size_t n, const Bodies
   return is_k_said || body.diameter == 0 ? body.k : homogeneous_k(body.length, body.diameter);
 }
 
+// Of a rough sphere. What the scene says, or leaves to the default, has all digits.
+void adopt_inertia_of_sphere(const Scene& scene, Species& body, std::size_t n, double q) {
+  const double expected = inertia_of(q, body.mass, body.diameter);
+  if (body.given_inertia)
+    return require_agreement(scene, "inertia", n, *body.given_inertia, expected);
+  const Species made = scene.composition()[n < scene.species.size() ? n : 0];
+  if (made.q > 0 && agrees(made.q, q)) return;
+  body.given_inertia = expected;
+}
+
 // Whether bodies are fixed, which files say by an infinite mass. Where the scene is silent, they
 // may overlap each other, as they are where they are.
 bool adopt_fixed(const Scene& scene, Species& body, std::size_t n, bool expected) {
@@ -106,8 +116,12 @@ Species completed(const Scene& scene, Species body, std::size_t n, const Bodies&
       require_agreement(scene, key, n, body.*value, expected);
     body.*value = expected;
   }
-  if (body.turns()) body.k = k_of(scene, body, n, bodies);
-  body.given_inertia.reset();
+  if (body.has_axis()) {
+    body.k = k_of(scene, body, n, bodies);
+    body.given_inertia.reset();
+  } else if (n < bodies.q.size() && bodies.q[n] > 0) {
+    adopt_inertia_of_sphere(scene, body, n, bodies.q[n]);
+  }
   return body;
 }
 
@@ -270,6 +284,7 @@ Bodies bodies_of(const Composition& composition, double scale) {
           .push_back(value == &Species::mass ? each.mass_or_infinity() : each.*value * scale);
     }
     bodies.k.push_back(each.k * (scale * scale));
+    bodies.q.push_back(each.q / (scale * scale));
   }
   return bodies;
 }
@@ -288,7 +303,7 @@ std::string warning_of_unknown_bodies(const Scene& scene, const Bodies& bodies) 
       add_if(!has_none && (bodies.*known).empty() && !is_said(scene, key, n, is_default), key);
     }
     const bool is_k_said = is_said(scene, "k", n, body.k == Species{}.k) ||
-                           is_said(scene, "inertia", n, true) || !body.turns();
+                           is_said(scene, "inertia", n, true) || !body.has_axis();
     add_if(bodies.k.empty() && !is_k_said, "k");
   }
   if (unknown.empty()) return "";

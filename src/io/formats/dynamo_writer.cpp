@@ -134,8 +134,8 @@ void DynamoWriter::require_known_bodies() const {
         "{}: pairs that pass through each other: expected species that all meet", path_));
   }
   if (spheres_) return;
-  const auto is_needle = [](const Species& each) { return each.turns() && each.diameter == 0; };
-  const auto is_sphere = [](const Species& each) { return !each.turns(); };
+  const auto is_needle = [](const Species& each) { return each.has_axis() && each.diameter == 0; };
+  const auto is_sphere = [](const Species& each) { return !each.has_axis(); };
   if (std::ranges::any_of(composition_.species(), is_needle) &&
       std::ranges::any_of(composition_.species(), is_sphere)) {
     throw InputError(
