@@ -389,11 +389,13 @@ std::vector<std::uint32_t> FrameReader::read_ids() {
   return ids;
 }
 
-// Whether the file says that it is one, whose director marks nothing.
-static bool is_sphere(const State& state, std::size_t i) {
+// Whether it may be a sphere, whose director marks nothing: the file says so, or leaves that to the
+// scene (adopt_state()).
+static bool may_be_sphere(const State& state, std::size_t i) {
   if (!state.own_bodies.length.empty()) return state.own_bodies.length[i] == 0;
   const std::size_t species = state.species.empty() ? 0 : state.species[i];
-  return species < state.bodies.length.size() && state.bodies.length[species] == 0;
+  const std::vector<double>& known = state.bodies.length;
+  return known.empty() || (species < known.size() && known[species] == 0);
 }
 
 void FrameReader::require_needles(const State& state) {
@@ -410,7 +412,7 @@ void FrameReader::require_needles(const State& state) {
              fmt::format(", of length {}: expected a unit vector, within {}", length_of(u),
                          director_tolerance));
     }
-    if (is_sphere(state, i)) continue;
+    if (may_be_sphere(state, i)) continue;
     if (const double part = part_along(w, u); !(std::abs(part) <= director_tolerance)) {
       reject(show("angular_velocity", i, w),
              fmt::format(", of which {} of its length along the director: expected none, within {}",

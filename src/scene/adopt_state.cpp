@@ -264,6 +264,26 @@ static void drop_equal_rows(State& state) {
     state.own_bodies = {};
 }
 
+// Bodies with an axis do not turn about it. A file that does not say which have one is checked
+// here.
+static void require_no_spin_about_axes(const Scene& scene, const State& state) {
+  constexpr double tolerance = 1e-6;
+  const Composition composition = scene.composition();
+  for (std::size_t i = 0; i < state.angular_velocity.size(); ++i) {
+    const std::size_t species = state.species.empty() ? 0 : state.species[i];
+    if (species >= composition.size() || !composition[species].has_axis()) continue;
+    const auto &u = state.orientation[i], &w = state.angular_velocity[i];
+    const double along = u[0] * w[0] + u[1] * w[1] + u[2] * w[2],
+                 size = std::hypot(w[0], w[1], w[2]);
+    if (std::abs(along) <= tolerance * size) continue;
+    throw InputError(fmt::format(
+        "{}: needle {}: angular velocity ({}, {}, {}), of which {:.4g} is along its director: "
+        "expected none, within {} of its length",
+        place_of(scene, "initial.file", source_of_state(scene)), state.id.empty() ? i : state.id[i],
+        w[0], w[1], w[2], along, tolerance));
+  }
+}
+
 void adopt_state(Scene& scene, State& state) {
   if (state.scale) drop_equal_rows(state);
   if (state.own_bodies.empty()) require_nothing_drawn(scene, state.bodies);
@@ -272,6 +292,7 @@ void adopt_state(Scene& scene, State& state) {
   adopt_count_and_box(scene, state);
   if (lacks_numbers(scene, state)) state.own_bodies = all_numbers_of(scene, state);
   adopt_own_bodies(scene, state);
+  if (!scene.initial.file.empty()) require_no_spin_about_axes(scene, state);
   if (scene.places.contains("needles.box")) require_rules(scene, Aspect::room);
 }
 
