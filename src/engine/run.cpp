@@ -513,25 +513,31 @@ ReplacedRecords Run::cool() {
   return replaced;
 }
 
+double Run::next_look_for_jam() const {
+  constexpr double collisions_of_a_body = 8;
+  if (!gas.moving_edges || !effects.width) return std::numeric_limits<double>::infinity();
+  return static_cast<double>(looked_for_jam_.collisions) +
+         collisions_of_a_body * static_cast<double>(gas.moving());
+}
+
 bool Run::is_jammed() {
   // Elastic bodies grow ever faster. Where times of contacts round by so much of what overlaps may
   // be, they have been seen to overlap by more from 4 on.
-  constexpr double most_rounded = 0.25, most_moved = 1e-6, most_flown = 0.1;
+  constexpr double most_rounded = 0.25, most_moved = 1e-6, most_flown = 0.1, long_look = 512;
+  const JamLook before = std::exchange(looked_for_jam_, {now, tally.collisions});
   const double speed = gas.moving_edges->speed(gas.clock.exact_difference(now, {}));
-  if (!(speed > 0)) return false;
   const double thermal = std::sqrt(2 * std::max(0.0, present_energy()) / gas.mass());
+  const auto has_moved_little = [&](const JamLook& since, double walls) {
+    const double elapsed = gas.clock.difference(now, since.time);
+    return thermal * elapsed <= most_flown * gas.longest && speed * elapsed <= walls * gas.longest;
+  };
   const bool is_rounded = thermal * gas.clock.resolution() > most_rounded * gas.touch_tolerance();
-  std::uint64_t events = tally.collisions;
-  for (const SourceTally& source : tally.by_source) events += source.events;
-  const double events_of_a_body = is_rounded ? 16 : 1e3;
-  if (static_cast<double>(events - events_then_) <
-      events_of_a_body * static_cast<double>(gas.moving()))
+  if (speed > 0 && is_rounded && has_moved_little(before, 1)) return true;
+  if (static_cast<double>(tally.collisions - looked_long_for_jam_.collisions) <
+      long_look * static_cast<double>(gas.moving()))
     return false;
-  const double elapsed = gas.clock.difference(now, looked_for_jam_);
-  events_then_ = events;
-  looked_for_jam_ = now;
-  return thermal * elapsed <= most_flown * gas.longest &&
-         (is_rounded || speed * elapsed <= most_moved * gas.longest);
+  const JamLook long_before = std::exchange(looked_long_for_jam_, looked_for_jam_);
+  return speed > 0 && has_moved_little(long_before, most_moved);
 }
 
 bool Run::nothing_can_happen() const {

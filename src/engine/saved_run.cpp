@@ -321,6 +321,13 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
     require(kicks_done < std::uint64_t{1} << 53 && now <= next_instant());
   }
   if (effects.growth) transfer_growth(archive);
+  if (gas.moving_edges) {
+    for (JamLook* look : {&looked_for_jam_, &looked_long_for_jam_})
+      archive(look->time, look->collisions);
+    require(looked_for_jam_.collisions <= tally.collisions && looked_for_jam_.time <= now &&
+            looked_long_for_jam_.collisions <= tally.collisions &&
+            looked_long_for_jam_.time <= now);
+  }
   find_next_instant();
   energy_shares.transfer(archive, sources.size(), objects, effects.shear, effects.growth);
   if (effects.stress) {

@@ -282,7 +282,12 @@ struct Simulation::Implementation {
       StopConditions before = limits;
       before.time = std::min(limits.time, instant);
       before.why = Stop::time;
+      before.collisions = std::min(limits.collisions, run.next_look_for_jam());
       const auto stop = loop->advance(before);
+      if (stop == Stop::collisions && before.collisions < limits.collisions) {
+        if (run.is_jammed()) return Stop::jammed;
+        continue;
+      }
       if (stop == Stop::time && instant <= limits.time) {
         pass_instant();
         if (const auto reached = limits.reached(run)) return *reached;
