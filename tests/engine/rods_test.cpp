@@ -342,8 +342,10 @@ TEST(RodPacking, SaysWhatItCannotPlace) {
   EXPECT_EQ(refusal(scene),
             "the scene: needles.box = [2.5, 2.5, 2.5]: 23 spheres take up 0.7707 of it, and no "
             "packing more than 0.7405: expected a larger box");
-  EXPECT_EQ(refusal(rods_of(13, 0, 0.73)),
-            "initial.packing = \"auto\": no lattice of spheres has room for 13 spheres at a "
+  scene = rods_of(13, 0, 0.73);
+  scene.initial.packing = "lattice";
+  EXPECT_EQ(refusal(scene),
+            "initial.packing = \"lattice\": no lattice of spheres has room for 13 spheres at a "
             "packing fraction of 0.73: expected a larger box, or edges that fit them better");
   scene = rods_of(11, 0, 0.7);
   scene.initial.packing = "insertion";
