@@ -96,8 +96,6 @@ TEST(BadDriving, IsRefused) {
        "line 3: driving.andersen.temperature = 0: " + temperature},
       {"andersen = { rate = 1 }", "driving.andersen.temperature is missing: " + temperature},
       {"andersen = { temperature = 1 }", "driving.andersen.rate is missing: " + rate},
-      {"growth = { until_packing = 0.6 }",
-       "driving.growth.rate is missing: expected a number > 0 (from 1e-9 to 10)"},
       {"growth = { rate = 1, until_packing = 1.5 }",
        "line 3: driving.growth.until_packing = 1.5: expected a number > 0 (from 1e-9 to 1)"},
       {"growth = { rate = 1, until_pressure = 0.5 }",
@@ -107,6 +105,9 @@ TEST(BadDriving, IsRefused) {
   };
   for (const auto& [text, expected] : cases)
     EXPECT_EQ(message(undriven + "driving." + text), "s.toml: " + expected) << text;
+  EXPECT_EQ(message("needles = { count = 10, box = 12, diameter = 0.5 }\nuntil.time = 5\n"
+                    "driving.growth.until_packing = 0.6"),
+            "s.toml: driving.growth.rate is missing: expected a number > 0 (from 1e-9 to 10)");
 }
 
 }  // namespace
