@@ -20,7 +20,7 @@ class Growth(InFolder):
 
     def test_sizes_packing_and_pressure(self):
         sim = Simulation(SCENE)
-        self.assertEqual(sim.growth.scale, 1)
+        self.assertAlmostEqual(sim.growth.scale, 1, places=14)
         self.assertTrue(np.isnan(sim.growth.pressure))
         sim = self.grown()
         growth = sim.growth
@@ -50,7 +50,7 @@ class Growth(InFolder):
         sim.close()
         with needlework.read(path) as recording:
             first, last = recording.frames[0], recording.frames[-1]
-            self.assertEqual(first.scale, 1)
+            self.assertAlmostEqual(first.scale, 1, places=14)
             self.assertAlmostEqual(last.scale, sim.scale, places=14)
             np.testing.assert_allclose(last.length, sim.length, rtol=1e-14)
             np.testing.assert_allclose(last.diameter, sim.diameter, rtol=1e-14)

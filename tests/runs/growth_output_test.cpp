@@ -119,7 +119,6 @@ TEST_F(GrowthOutput, IsTheStartOfAnotherScene) {
   PreparedRun run(complete_scene(spheres()), false);
   run.drive(monitor);
   const double scale = run.simulation().growth()->scale;
-  run.close();
   Scene other;
   other.initial.file = file;
   other.until.collisions_per_needle = 20;
@@ -151,7 +150,6 @@ TEST_F(GrowthOutput, OfSeveralSpeciesStartsAnotherScene) {
   PreparedRun run(complete_scene(mixture()), false);
   run.drive(monitor);
   const double scale = run.simulation().growth()->scale;
-  run.close();
   Scene other;
   other.initial.file = file;
   other.until.collisions_per_needle = 20;
@@ -168,7 +166,6 @@ TEST_F(GrowthOutput, OfSeveralSpeciesStartsAnotherScene) {
 TEST_F(GrowthOutput, OtherSizesAreRefused) {
   PreparedRun run(complete_scene(spheres()), false);
   run.drive(monitor);
-  run.close();
   Scene other;
   other.initial.file = file;
   other.until.collisions_per_needle = 20;

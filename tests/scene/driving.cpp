@@ -105,8 +105,8 @@ TEST(BadDriving, IsRefused) {
   };
   for (const auto& [text, expected] : cases)
     EXPECT_EQ(message(undriven + "driving." + text), "s.toml: " + expected) << text;
-  EXPECT_EQ(message("needles = { count = 10, box = 12, diameter = 0.1 }\nuntil.time = 5\n"
-                    "driving.growth = { until_packing = 0.6 }"),
+  EXPECT_EQ(message("needles = { count = 10, box = 12, diameter = 0.5 }\nuntil.time = 5\n"
+                    "driving.growth.until_packing = 0.6"),
             "s.toml: driving.growth.rate is missing: expected a number > 0 (from 1e-9 to 10)");
 }
 
