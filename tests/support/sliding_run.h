@@ -48,7 +48,8 @@ struct SlidingRun {
     audit::Audit audit(initial, setup);
     auto kick = kicks.begin();
     for (std::size_t n = 0; n <= happenings.size(); ++n) {
-      for (; kick != kicks.end() && kick->happenings == n; ++kick) audit.add_kick(kick->after);
+      for (; kick != kicks.end() && kick->happenings == n; ++kick)
+        audit.add_kick(kick->after, kick->time);
       if (n < happenings.size()) audit.add(happenings[n]);
     }
     audit.finish(end);
