@@ -137,9 +137,10 @@ class Simulation {
   std::vector<SpeciesTotals> species_totals() const;
   /// The species of each needle, in order of id; empty if there is one species.
   std::vector<std::uint8_t> species() const;
-  /// The numbers of each needle, in order of id, where those of a species differ; otherwise empty.
+  /// The numbers of each needle, in order of id, where those of a species differ or bodies grow, as
+  /// they are now; otherwise empty.
   OwnBodies own_bodies() const;
-  /// What the gas is made of, with the counts of the state.
+  /// What the gas is made of, with the counts of the state; bodies that grow as at the start.
   const Composition& composition() const;
   /// Collisions since the start of the run of each pair of species, by Composition::pair_index.
   std::vector<std::uint64_t> collisions_by_pair() const;
@@ -149,6 +150,9 @@ class Simulation {
   std::array<double, 3> box() const;
   /// Where the low edges are: 0, but where such a wall has moved one. [L]
   std::array<double, 3> low() const;
+
+  /// Of a scene with driving.growth.
+  std::optional<GrowthTotals> growth() const;
 
   std::size_t needles() const;       ///< number of needles
   std::uint64_t collisions() const;  ///< of all needles since the start of the run

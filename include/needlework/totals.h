@@ -125,6 +125,24 @@ struct WallTotals {
   }
 };
 
+/// Bodies that grow.
+struct GrowthTotals {
+  double scale = 1, packing_fraction = 0;
+  double pressure = std::numeric_limits<double>::quiet_NaN();
+
+  template <class Visit>
+  constexpr void for_each(Visit&& visit) const {
+    visit(Described{"scale", unit::none, "Present sizes of bodies in those of the start"}, scale);
+    visit(Described{"packing_fraction", unit::none,
+                    "Share of the volume of the box that bodies take up now"},
+          packing_fraction);
+    visit(Described{"pressure", unit::none,
+                    "P V / (N T) by the virial, as it was last measured, over the collisions "
+                    "between two times at which velocities were scaled back; NaN before"},
+          pressure);
+  }
+};
+
 /// Contacts of needles that slide on each other, since the start of the run. Each that was entered
 /// has ended, or lasts.
 struct SlidingContacts {

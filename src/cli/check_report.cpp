@@ -304,14 +304,17 @@ Json shear_json(const runs::Explanation& e) {
 }
 
 const char* method_of(const runs::Explanation& e) {
-  if (!e.placing->on_lattice) return "insertion";
+  if (e.placing->way == PlannedPlacement::Way::inserted) return "insertion";
+  if (e.placing->way == PlannedPlacement::Way::grown) return "compress";
   return e.scene.initial.packing == "crossed" ? "crossed" : "lattice";
 }
 
 std::string placing_text(const runs::Explanation& e) {
-  const auto& [on_lattice, tries, collisions] = *e.placing;
+  const auto& [way, tries, collisions] = *e.placing;
   const std::string how =
-      on_lattice
+      way == PlannedPlacement::Way::grown
+          ? fmt::format("smaller, then grown in about {:.2g} elastic collisions each", collisions)
+      : way == PlannedPlacement::Way::on_lattice
           ? fmt::format("{}, then {} elastic collisions each",
                         e.scene.initial.packing == "crossed" ? "in crossed blocks" : "on a lattice",
                         collisions)
@@ -320,10 +323,11 @@ std::string placing_text(const runs::Explanation& e) {
 }
 
 Json placing_json(const runs::Explanation& e) {
-  const auto& [on_lattice, tries, collisions] = *e.placing;
+  const auto& [way, tries, collisions] = *e.placing;
+  const bool is_inserted = way == PlannedPlacement::Way::inserted;
   return {{"method", method_of(e)},
-          {"tries_per_rod", on_lattice ? Json() : number(tries)},
-          {"collisions_per_rod", on_lattice ? number(collisions) : Json()},
+          {"tries_per_rod", is_inserted ? number(tries) : Json()},
+          {"collisions_per_rod", is_inserted ? Json() : number(collisions)},
           {"wall_s", number(e.placing_seconds)}};
 }
 

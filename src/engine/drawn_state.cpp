@@ -19,6 +19,7 @@
 #include "src/scene/check.h"
 #include "src/scene/confinement.h"
 #include "src/scene/drawing.h"
+#include "src/scene/growth_plan.h"
 #include "src/scene/rod_room.h"
 #include "src/scene/validity.h"
 
@@ -60,6 +61,54 @@ double tries_of(const Scene& scene) {
 // Whether inserting rods would take far longer than it may. The estimate is that of a fluid, in
 // which rods find more room.
 bool is_hopeless(const Scene& scene) { return tries_of(scene) > 100 * tries_without_choice; }
+
+// Thin needles take up no room, and fixed bodies would have to move.
+bool may_grow(const Composition& composition) {
+  return composition.has_width() && !composition.is_partly_thin() && !composition.has_fixed();
+}
+
+void require_growable(const Scene& scene) {
+  const Composition composition = scene.composition();
+  if (may_grow(composition)) return;
+  throw InputError(fmt::format("{}: expected bodies with a diameter, none of them fixed: {}",
+                               place_of_packing(scene),
+                               composition.has_fixed() ? "those that grow push each other about"
+                                                       : "thin needles find room anywhere"));
+}
+
+// From the sizes at which bodies begin that grow to those of the scene: few tries insert them, at
+// not too high a packing fraction. A share of these sizes.
+double share_at_start(const Scene& scene) {
+  constexpr double few_tries = 8, most_packing = 0.25;
+  const Composition composition = scene.composition();
+  const double volume = volume_of(scene);
+  double low = 0, high = std::min(0.99, std::cbrt(most_packing / packing_fraction(scene)));
+  if (estimated_tries(enlarged(composition, high), volume) <= few_tries) return high;
+  for (int i = 0; i < 20; ++i) {
+    const double middle = 0.5 * (low + high);
+    (estimated_tries(enlarged(composition, middle), volume) <= few_tries ? low : high) = middle;
+  }
+  return low;
+}
+
+// Of the mean diameter, in thermal speeds; spheres that grow ten times as slowly get from 0.644 to
+// 0.651 before they jam.
+constexpr double rate_of_growth = 0.01;
+
+// Collisions of a body while it grows: heat per growth is that of the pressure, and heat per
+// collision that of the rate.
+double collisions_to_grow(const Scene& scene) {
+  constexpr int steps = 64;
+  constexpr double heat_of_collisions = 0.6;
+  const Composition composition = scene.composition();
+  const double from = std::log(share_at_start(scene));
+  double sum = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double scale = std::exp(from * (i + 0.5) / steps);
+    sum += estimated_pressure(enlarged(composition, scale), volume_of(scene)) - 1;
+  }
+  return 2 * sum * (-from / steps) / (heat_of_collisions * rate_of_growth);
+}
 
 void require_insertable(const Scene& scene) {
   if (!is_hopeless(scene)) return;
@@ -166,7 +215,8 @@ State slid(const Scene& scene, State state) {
   return out;
 }
 
-DrawnState melted(const Scene& scene, State state, RodOrder order, double collisions_per_rod) {
+// Moves bodies by elastic collisions. `doing` is what whoever asks is told meanwhile.
+State stirred(const Scene& scene, State state, double collisions_per_rod, const char* doing) {
   const Scene still = elastic(scene, state);
   draw_velocities(still, state);
   Simulation simulation(still, state);
@@ -179,21 +229,100 @@ DrawnState melted(const Scene& scene, State state, RodOrder order, double collis
   while (simulation.advance(until) == Stop::wall_time) {
     const auto rods = static_cast<double>(simulation.needles());
     StopRequest::check(
-        {"moving rods from a lattice",
-         2 * static_cast<double>(simulation.collisions()) / (collisions_per_rod * rods)});
+        {doing, 2 * static_cast<double>(simulation.collisions()) / (collisions_per_rod * rods)});
   }
-  DrawnState out;
-  out.state = drawn_from(simulation, scene);
+  State out = drawn_from(simulation, scene);
   // By its new velocities, the pair of the last collision would begin the run with another one.
-  if (last && approach(out.state, *last)) {
+  if (last && approach(out, *last)) {
     until.collisions_per_needle.reset();
     until.time = simulation.time() + 0.5 * simulation.mean_free_time();
     while (simulation.advance(until) == Stop::wall_time) StopRequest::check();
-    out.state = drawn_from(simulation, scene);
+    out = drawn_from(simulation, scene);
   }
+  return out;
+}
+
+DrawnState melted(const Scene& scene, State state, RodOrder order, double collisions_per_rod) {
+  DrawnState out{stirred(scene, std::move(state), collisions_per_rod, "moving rods from a lattice"),
+                 {}};
   out.placement = fmt::format(
       "{} rods placed {}, then moved in {} elastic collisions per rod", out.state.size(),
       order == RodOrder::parallel ? "on a lattice" : "in crossed blocks", collisions_per_rod);
+  return out;
+}
+
+// The largest eigenvalue of the mean of (3 u u - 1) / 2 over directors u.
+double nematic_order(const State& state) {
+  std::array<std::array<double, 3>, 3> q{};
+  for (const auto& u : state.orientation) {
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t b = 0; b < 3; ++b) q[a][b] += 1.5 * u[a] * u[b];
+  }
+  double squares = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t b = 0; b < 3; ++b) {
+      q[a][b] = q[a][b] / static_cast<double>(state.size()) - (a == b ? 0.5 : 0);
+      squares += q[a][b] * q[a][b];
+    }
+  }
+  const double size = std::sqrt(squares / 6);
+  if (size == 0) return 0;
+  double determinant = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    determinant +=
+        q[0][a] * (q[1][(a + 1) % 3] * q[2][(a + 2) % 3] - q[1][(a + 2) % 3] * q[2][(a + 1) % 3]);
+  }
+  const double half = std::clamp(0.5 * determinant / (size * size * size), -1.0, 1.0);
+  return 2 * size * std::cos(std::acos(half) / 3);
+}
+
+// Bodies are inserted smaller than they are, and grow while they collide.
+DrawnState grown(const Scene& scene) {
+  // Collisions of each after it has grown, in which it forgets how.
+  constexpr double collisions_to_forget = 20;
+  const double share = share_at_start(scene);
+  Insertion rods = insert_rods(scene, most_tries, static_cast<double>(most_tries), share);
+  if (rods.placed < rods.state.size()) {
+    throw InputError(
+        fmt::format("{}: a body of {:.4g} of its size found no place in {} tries: "
+                    "expected a larger box",
+                    place_of_packing(scene), share, most_tries));
+  }
+  Scene growing = elastic(scene, rods.state);
+  Scene::Growth& growth_of_scene = growing.driving.growth.emplace();
+  growth_of_scene.rate = rate_of_growth;
+  growth_of_scene.cool_every = 4;
+  growth_of_scene.from = share;
+  draw_velocities(growing, rods.state);
+  Simulation simulation(growing, rods.state);
+  Scene::Until until;
+  until.wall_s = 0.1;
+  Stop stop;
+  while ((stop = simulation.advance(until)) == Stop::wall_time) {
+    const double scale = simulation.growth()->scale;
+    StopRequest::check({"growing bodies", (scale - share) / (1 - share)});
+  }
+  const GrowthTotals growth = *simulation.growth();
+  if (stop != Stop::grown) {
+    throw InputError(fmt::format(
+        "{}: bodies that grow jam at a packing fraction of {:.4g}, where P V / (N T) is {:.3g}, "
+        "before they come to {:.4g}: expected a larger box",
+        place_of_packing(scene), growth.packing_fraction, growth.pressure,
+        packing_fraction(scene)));
+  }
+  const double collisions =
+      2 * static_cast<double>(simulation.collisions()) / static_cast<double>(simulation.needles());
+  State state;
+  simulation.copy(state);
+  state.image.clear();
+  state.id.clear();
+  state.own_bodies = rods.state.own_bodies;
+  DrawnState out{stirred(scene, std::move(state), collisions_to_forget, "moving bodies"), {}};
+  out.placement =
+      fmt::format("{} bodies inserted at {:.3g} of their sizes, grown in {:.4g} collisions each",
+                  out.state.size(), share, collisions);
+  if (!scene.composition().are_spheres())
+    out.placement += fmt::format(" to a nematic order of {:.3g}", nematic_order(out.state));
   return out;
 }
 
@@ -221,6 +350,10 @@ DrawnState draw_in_flow(const Scene& scene) {
                     "larger box",
                     place_of_packing(scene), most_tries));
   }
+  if (packing == "compress") {
+    require_growable(scene);
+    return grown(scene);
+  }
   if (packing == "auto" && !is_hopeless(scene)) {
     if (auto state = inserted(scene, tries_by_choice)) return std::move(*state);
   }
@@ -228,6 +361,7 @@ DrawnState draw_in_flow(const Scene& scene) {
     if (scene.shear && scene.shear->offset > 0) *lattice = slid(scene, std::move(*lattice));
     return melted(scene, std::move(*lattice), order_of(scene), collisions_to_forget(scene));
   }
+  if (packing == "auto" && may_grow(scene.composition())) return grown(scene);
   if (packing == "auto" && !is_hopeless(scene)) {
     if (auto state = inserted(scene, tries_without_choice)) return std::move(*state);
   }
@@ -248,10 +382,19 @@ PlannedPlacement plan_placement(const Scene& scene) {
   const double tries = tries_of(scene);
   const std::string& packing = scene.initial.packing;
   if (packing == "insertion") require_insertable(scene);
+  const auto grown = [&] {
+    return PlannedPlacement{.way = PlannedPlacement::Way::grown,
+                            .collisions = collisions_to_grow(scene)};
+  };
+  if (packing == "compress") {
+    require_growable(scene);
+    return grown();
+  }
   if (packing == "insertion" || (packing == "auto" && tries <= tries_by_choice))
     return {.tries = tries};
   if (place_rods_on_lattice(scene, order_of(scene)))
-    return {.on_lattice = true, .collisions = collisions_to_forget(scene)};
+    return {.way = PlannedPlacement::Way::on_lattice, .collisions = collisions_to_forget(scene)};
+  if (packing == "auto" && may_grow(scene.composition())) return grown();
   if (packing != "auto" || is_hopeless(scene)) refuse_lattice(scene);
   return {.tries = std::min(tries, tries_without_choice)};
 }

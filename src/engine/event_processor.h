@@ -417,7 +417,7 @@ template <Search S, Model M>
   best.time = std::min(
       {placed_until, gas_.records[i].renewal, gas_.clock.add(time, run_.windows.search_span())});
   if constexpr (M::has_effects) {
-    if (run_.replaces_velocities()) best.time = std::min(best.time, run_.after_next_instant());
+    best.time = std::min(best.time, run_.search_until());
     consider_sources(i, best);
   }
   search_.find({i, just_hit, time, gas_.clock.difference(best.time, time)}, model_,

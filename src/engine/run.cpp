@@ -162,9 +162,10 @@ void Run::find_last_time(const Scene& scene) {
 }
 
 void Run::find_next_instant() {
-  const Time next = next_instant();
+  Time last = replaces_velocities() ? next_instant() : Time::never();
+  if (gas.growth) last = std::min(last, gas.growth->end());
   constexpr double end = std::numeric_limits<double>::infinity();
-  after_next_instant_ = {next.epoch, std::nextafter(next.offset, end)};
+  search_until_ = {last.epoch, std::nextafter(last.offset, end)};
 }
 
 Growing::Parameters Run::parameters_of_growing(const Scene& scene) const {

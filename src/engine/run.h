@@ -105,8 +105,10 @@ class Run {
   }
   /// Whether the velocities of all needles are replaced then.
   bool replaces_velocities() const { return kicks || (growing && growing->parameters().cools); }
-  /// The first time after it, up to which contacts need to be searched.
-  Time after_next_instant() const { return after_next_instant_; }
+  /// Contacts need to be searched up to this time: the first one after an instant at which
+  /// velocities are replaced, or after that at which bodies have their largest sizes, beyond which
+  /// searches know no contact. Time::never() without either.
+  Time search_until() const { return search_until_; }
   /// Kicks all needles now, and replaces their records; see set_velocities().
   ReplacedRecords kick();
   /// Measures a gas whose bodies grow.
@@ -205,7 +207,7 @@ class Run {
   std::optional<double> tc_, tc_relative_;
   Time looked_for_jam_;
   std::uint64_t events_then_ = 0;
-  Time after_next_instant_ = Time::never();
+  Time search_until_ = Time::never();
   std::uint64_t sorted_at_ = 0;  ///< value of the counter `crossings` at the last sorting
 };
 

@@ -151,6 +151,10 @@ struct Simulation::Implementation {
     if (has_sizes(scene.engine.search) && !scene.engine.cell_side && !scene.engine.capsule_radius) {
       sizing.emplace(run.gas, run.now);
     }
+    if (run.gas.growth) {
+      composition_at_start = scene.composition();
+      if (!run.gas.composition.is_mixture()) composition_at_start->set_count(0, run.gas.size());
+    }
     begin_loop();
 #ifndef NDEBUG
     // A state that is given may overlap by what is taken for a touch.
@@ -304,7 +308,8 @@ struct Simulation::Implementation {
 #ifndef NDEBUG
   double overlap_at_start = 0;  ///< that rounding does not explain [L]
 #endif
-  std::string placement;  ///< how rods of a drawn state have found room
+  std::optional<Composition> composition_at_start;  ///< where bodies grow
+  std::string placement;                            ///< how rods of a drawn state have found room
 };
 
 namespace {
@@ -604,11 +609,27 @@ std::vector<std::uint8_t> Simulation::species() const {
 }
 OwnBodies Simulation::own_bodies() const {
   OwnBodies out;
-  if (implementation_->run.gas.has_own_bodies())
-    copy_own_bodies(implementation_->run.gas, implementation_->by_id(), out);
+  const Access self = access();
+  copy_own_bodies(self->run.gas, self->run.now, self->by_id(), out);
   return out;
 }
-const Composition& Simulation::composition() const { return implementation_->run.gas.composition; }
+const Composition& Simulation::composition() const {
+  const auto& at_start = implementation_->composition_at_start;
+  return at_start ? *at_start : implementation_->run.gas.composition;
+}
+std::optional<GrowthTotals> Simulation::growth() const {
+  const Access self = access();
+  const Run& run = self->run;
+  if (!run.growing) return std::nullopt;
+  const Vector edges = run.gas.edges_at(run.now);
+  const double scale = run.gas.scale_at(run.now);
+  const double pressure = run.growing->pressure();
+  return GrowthTotals{
+      .scale = scale * (run.gas.composition.longest() / composition().longest()),
+      .packing_fraction = run.gas.composition.packing_fraction(edges[0] * edges[1] * edges[2]) *
+                          (scale * scale * scale),
+      .pressure = pressure > 0 ? pressure : std::numeric_limits<double>::quiet_NaN()};
+}
 std::vector<std::uint64_t> Simulation::collisions_by_pair() const {
   const Run& run = implementation_->run;
   if (!run.gas.composition.is_mixture()) return {run.tally.collisions};

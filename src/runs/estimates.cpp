@@ -80,7 +80,7 @@ double estimated_setup_seconds(const Scene& scene, double density) {
 double estimated_placing_seconds(const Scene& scene, double density, const PlannedPlacement& plan) {
   constexpr double seconds_per_try = 0.4e-6;
   const double count = static_cast<double>(scene.needles.count);
-  if (!plan.on_lattice) return count * plan.tries * seconds_per_try;
+  if (plan.way == PlannedPlacement::Way::inserted) return count * plan.tries * seconds_per_try;
   return 0.5 * count * plan.collisions * estimated_seconds_per_collision(scene, density);
 }
 

@@ -113,7 +113,8 @@ std::string Room::expected_instead_of(const std::array<double, 3>& box) const {
 }
 
 bool acts_on_single_needles(const Scene& scene) {
-  return !scene.walls.empty() || scene.driving.kicks || scene.driving.andersen || scene.shear;
+  return !scene.walls.empty() || scene.driving.kicks || scene.driving.andersen ||
+         scene.driving.growth || scene.shear;
 }
 
 bool exchanges_energy(const Scene& scene) {

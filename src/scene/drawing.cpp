@@ -123,15 +123,10 @@ void draw_place(NeedleRandom& random, const std::array<Gap, 3>& gaps, const Vect
   } while (!is_inside());
 }
 
-RodShape shape_of(const Members& members, std::size_t i) {
-  const BodyNumbers its = members.body(i);
-  return {its.length, its.diameter, members.species[i]};
-}
-
-std::vector<RodShape> shapes_of(const Members& members) {
-  std::vector<RodShape> out;
-  for (std::size_t i = 0; i < members.size(); ++i) out.push_back(shape_of(members, i));
-  return out;
+BodyNumbers scaled(BodyNumbers body, double scale) {
+  body.length *= scale;
+  body.diameter *= scale;
+  return body;
 }
 
 // Draws velocities for needles of all species.
@@ -240,12 +235,18 @@ std::vector<std::size_t> largest_first(const Members& members) {
 
 }  // namespace
 
-Insertion insert_rods(const Scene& scene, std::uint64_t most_tries, double most_on_average) {
+Insertion insert_rods(const Scene& scene, std::uint64_t most_tries, double most_on_average,
+                      double scale) {
   const Members members = drawn_members(scene);
   const std::size_t rods = members.size();
+  std::vector<RodShape> shapes;
+  for (std::size_t id = 0; id < rods; ++id) {
+    const BodyNumbers its = scaled(members.body(id), scale);
+    shapes.push_back({its.length, its.diameter, members.species[id]});
+  }
   Insertion out{without_velocities(scene, rods), 0, 0};
   const std::array<Gap, 3> gaps = gaps_of(scene);
-  RodGrid grid(members.composition, shapes_of(members), box_at_start(scene));
+  RodGrid grid(members.composition, shapes, box_at_start(scene));
   for (const std::size_t id : largest_first(members)) {
     NeedleRandom random(scene.needles.seed, id);
     bool placed = false;
@@ -258,9 +259,9 @@ Insertion insert_rods(const Scene& scene, std::uint64_t most_tries, double most_
             {"placing rods", static_cast<double>(out.placed) / static_cast<double>(rods)});
       }
       Vector &centre = out.state.position[id], &director = out.state.orientation[id];
-      draw_place(random, gaps, out.state.box, members.body(id), centre, director);
-      if (grid.overlap(centre, director, shape_of(members, id), 0)) continue;
-      grid.enter(centre, director, shape_of(members, id));
+      draw_place(random, gaps, out.state.box, scaled(members.body(id), scale), centre, director);
+      if (grid.overlap(centre, director, shapes[id], 0)) continue;
+      grid.enter(centre, director, shapes[id]);
       placed = true;
     }
     if (!placed) return out;

@@ -22,8 +22,10 @@ struct Insertion {
   std::uint64_t tries = 0;   ///< of all
 };
 /// Stops at the first rod that finds no place in so many tries, and where the mean number of tries
-/// of all rods would become larger than `most_on_average`.
-Insertion insert_rods(const Scene& scene, std::uint64_t most_tries, double most_on_average);
+/// of all rods would become larger than `most_on_average`. Rods are placed as if they had this
+/// share of their sizes.
+Insertion insert_rods(const Scene& scene, std::uint64_t most_tries, double most_on_average,
+                      double scale = 1);
 
 /// All rods of a lattice along one axis, or in blocks along x, y and z in turn.
 enum class RodOrder { parallel, crossed };

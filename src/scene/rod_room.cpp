@@ -23,13 +23,20 @@ double densest_packing(const Species& species) {
   return species.volume() / (0.5 * std::sqrt(3.0) * width * width * layer);
 }
 
+// Of a fluid of so many bodies per volume, over its temperature.
+double pressure_of(const ConvexBody& fluid, double number) {
+  const double free = 1 - fluid.volume;
+  const double r = fluid.radius / free, s = fluid.surface / free;
+  return number / free + r * s + s * s * s / (12 * pi);
+}
+
 // How many tries a body needs among so many others per volume, whose measures these are, and which
 // exclude each other.
 double tries_among(const ConvexBody& body, const ConvexBody& fluid, double number) {
   const double free = 1 - fluid.volume;
   if (!(free > 0)) return std::numeric_limits<double>::infinity();
   const double r = fluid.radius / free, s = fluid.surface / free;
-  const double pressure = number / free + r * s + s * s * s / (12 * pi);
+  const double pressure = pressure_of(fluid, number);
   return std::exp(body.radius * s + body.surface * r + body.surface * s * s / (8 * pi) +
                   pressure * body.volume) /
          free;
@@ -75,6 +82,15 @@ double densest_packing(const Composition& composition) {
     left *= 1 - densest_packing(each);
   }
   return 1 - left;
+}
+
+double estimated_pressure(const Composition& composition, double volume) {
+  ConvexBody fluid;
+  const double number = static_cast<double>(composition.count()) / volume;
+  for (const Species& each : composition.species())
+    add(fluid, convex_body(each), static_cast<double>(each.count) / volume);
+  if (!(fluid.volume < 1)) return std::numeric_limits<double>::infinity();
+  return pressure_of(fluid, number) / number;
 }
 
 double estimated_tries(const Composition& composition, double volume) {

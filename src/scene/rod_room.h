@@ -19,4 +19,7 @@ double densest_packing(const Composition& composition);
 /// others.
 double estimated_tries(const Composition& composition, double volume);
 
+/// P V / (N T) of these bodies as a fluid, by the same theory. None of them is fixed.
+double estimated_pressure(const Composition& composition, double volume);
+
 }  // namespace needlework

@@ -266,7 +266,9 @@ void require_what_is_needed(const Scene& scene, const Document& document,
   }
   const Scene::Until& until = scene.until;
   if (provided.end) return;
-  if (!until.time && !until.collisions_per_needle && !until.energy_ratio && !until.wall_s)
+  const bool ends = until.time || until.collisions_per_needle || until.energy_ratio ||
+                    until.wall_s || scene.driving.growth;
+  if (!ends)
     throw document.missing("an end condition in [until]",
                            "expected one or more of time, collisions_per_needle, energy_ratio, "
                            "wall_s");

@@ -255,7 +255,7 @@ TEST(RodPacking, PutsTheLargestFirst) {
     EXPECT_EQ(drawn.state.species.front(), 0);
     EXPECT_EQ(drawn.state.species.back(), 1);
     const PlannedPlacement plan = plan_placement(scene);
-    EXPECT_FALSE(plan.on_lattice);
+    EXPECT_EQ(plan.way, PlannedPlacement::Way::inserted);
     EXPECT_NEAR(plan.tries, 1.14, 0.02);
   }
 }
@@ -263,7 +263,7 @@ TEST(RodPacking, PutsTheLargestFirst) {
 // 864 spheres at 0.711: as many as 6 x 6 x 6 cells of fcc. With walls, hexagonal layers fit better.
 TEST(RodPacking, PutsSpheresOnFcc) {
   Scene scene = rods_of(864, 0, 0.711);
-  EXPECT_TRUE(plan_placement(scene).on_lattice);
+  EXPECT_EQ(plan_placement(scene).way, PlannedPlacement::Way::on_lattice);
   const std::optional<State> lattice = place_rods_on_lattice(scene, RodOrder::parallel);
   ASSERT_TRUE(lattice);
   EXPECT_EQ(overlaps(scene, *lattice, 0), 0);

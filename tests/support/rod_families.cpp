@@ -418,6 +418,27 @@ RodCase slow_rods(Random& random) {
   return out;
 }
 
+// By up to a few of their sizes until the horizon, so that they may grow faster than they part.
+RodCase that_grow(Random& random, RodCase rods) {
+  rods.pair.growth = power_of_ten(random, -4, 0.5) / rods.horizon;
+  return rods;
+}
+
+RodCase growing_rods(Random& random) {
+  constexpr RodCase (*draws[])(Random&) = {any_rods,    contact_of_rods, parallel_rods,
+                                           tip_of_rods, collinear_rods,  unequal_rods,
+                                           still_rods,  sphere_and_rod,  rods_of_unlike_records,
+                                           slow_rods};
+  return that_grow(random, draws[random.below(std::size(draws))](random));
+}
+
+RodCase growing_spheres(Random& random) { return that_grow(random, spheres(random)); }
+
+RodCase growing_collided(Random& random) {
+  return that_grow(random,
+                   random.coin() ? just_collided_spheres(random) : just_collided_rods(random));
+}
+
 }  // namespace
 
 const std::vector<RodFamily>& rod_families() {
@@ -440,7 +461,10 @@ const std::vector<RodFamily>& rod_families() {
       {"still", still_rods},
       {"records", rods_of_unlike_records},
       {"far", far_rods},
-      {"slow", slow_rods}};
+      {"slow", slow_rods},
+      {"growing", growing_rods},
+      {"growing_spheres", growing_spheres},
+      {"growing_collided", growing_collided}};
   return all;
 }
 

@@ -32,6 +32,8 @@ struct RodFamily {
 /// - fast: rotating 1e2 .. 1e4 times as fast as they fly;  still: one or both do not rotate
 /// - records: records of different times, another image, and gravity between
 /// - far: 1e2 .. 1e4 lengths apart;  slow: velocities times 2^-300
+/// - growing, growing-spheres, growing-collided: the same, of bodies that grow, some of them faster
+///   than they part
 const std::vector<RodFamily>& rod_families();
 
 }  // namespace needlework::test

@@ -55,8 +55,9 @@ class RodMotion {
   Vec<Real> r, v;        ///< r12 at s = 0, and its rate of change
   Vec<Real> u[2], p[2];  ///< of the records: directors, and their rates of change over omega
   Real omega[2], delay[2], half[2];
-  Real reach;  ///< sum of the sizes of what has been added to get r
-  Real speed;  ///< of a point of one axis relative to one of the other, not below
+  Real reach;   ///< sum of the sizes of what has been added to get r
+  Real speed;   ///< of a point of one axis relative to one of the other, not below
+  Real growth;  ///< half lengths are 1 + growth s times as large at s
 
  private:
   static Vec<Real> real(const Vec3d& a) { return {Real(a.x), Real(a.y), Real(a.z)}; }
@@ -92,7 +93,11 @@ RodMotion<Real>::RodMotion(const RodCase& rods) {
     v = v + real(rods.pair.fall->velocity);
     reach += norm(real(rods.pair.fall->place));
   }
-  speed = (norm(v) + half[0] * omega[0] + half[1] * omega[1]) * (1 + Real(1e-9));
+  growth = rods.pair.growth;
+  const Real largest = 1 + growth * Real(rods.horizon);
+  speed = (norm(v) + largest * (half[0] * omega[0] + half[1] * omega[1]) +
+           growth * (half[0] + half[1])) *
+          (1 + Real(1e-9));
 }
 
 template <class Real>
@@ -102,6 +107,7 @@ typename RodMotion<Real>::Nearest RodMotion<Real>::nearest(const Real& s) const 
   using std::min;
   Nearest out;
   bool is_first = true;
+  const Real grown = 1 + growth * s, half[2] = {this->half[0] * grown, this->half[1] * grown};
   for (int i = 0; i < 2; ++i) out.director[i] = director(i, s);
   const Vec<Real>*d = out.director, between = r + s * v;
   // The gap itself, as its square is least at the nearest points: what they are off matters little.

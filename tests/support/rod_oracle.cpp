@@ -15,9 +15,12 @@ constexpr std::uint64_t most_evaluations = 1000000;
 class RodOracle {
  public:
   explicit RodOracle(const RodCase& rods)
-      : coarse_(rods), fine_(rods), speed_(fine_.speed), contact_(rods.pair.distance) {
+      : coarse_(rods),
+        fine_(rods),
+        speed_(fine_.speed + fine_.growth * Quad(rods.pair.distance)),
+        contact_(rods.pair.distance) {
     size_ = static_cast<Extended>(norm(fine_.r) + fine_.half[0] + fine_.half[1] + contact_ +
-                                  fine_.speed * rods.horizon);
+                                  speed_ * rods.horizon);
     for (int i = 0; i < 2; ++i) {
       const Quad phase = fine_.omega[i] * (fine_.delay[i] + rods.horizon);
       size_ += static_cast<Extended>(fine_.half[i] * phase);
@@ -57,7 +60,7 @@ class RodOracle {
   template <class Real>
   Real excess(const Real& s) {
     ++answer_.evaluations;
-    return motion<Real>().distance(s) - Real(contact_);
+    return motion<Real>().distance(s) - Real(contact_) * (1 + Real(fine_.growth) * s);
   }
   bool search_in(const Quad& from, const Quad& to) {
     if (Quad(to - from) * speed_ < fine_limit()) {

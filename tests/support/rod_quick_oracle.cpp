@@ -262,6 +262,7 @@ std::optional<RodAnswer> answer_in(const RodMotion<Fine>& motion, const Fine& co
 }  // namespace
 
 std::optional<RodAnswer> quick_rod_contact(const RodCase& rods) {
+  if (rods.pair.growth != 0) return std::nullopt;
   const RodMotion<long double> motion(rods);
   const long double contact = rods.pair.distance;
   const long double size = motion.reach + motion.half[0] + motion.half[1] + contact;

@@ -36,10 +36,10 @@ SceneSection initial_section() {
               {"packing",
                Aspect::start,
                {},
-               R"("auto", "insertion", "lattice" or "crossed")",
+               R"("auto", "insertion", "lattice", "crossed" or "compress")",
                [](Scene& s, V v, R) {
                  return store(s.initial.packing,
-                              one_of(v, {"auto", "insertion", "lattice", "crossed"}));
+                              one_of(v, {"auto", "insertion", "lattice", "crossed", "compress"}));
                }},
           },
       .exclusions = {{"initial.file", "initial.t_tr", not_both, replaces},
