@@ -151,10 +151,13 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
   const auto& [s12, s21, n, geometry, share] = contact;
   const Quad sine = norm(cross(a.u, b.u));
   const Vector3 velocity = a.v - b.v - past + cross(a.w, a.u) * s12 - cross(b.w, b.u) * s21;
-  // How fast growth brings the surfaces together: what the distance of the centres grows by along
-  // the normal.
+  // How fast growth brings the surfaces together: by what the distance of the centres along the
+  // normal, at contact, grows.
   Quad closing = 0;
-  if (space.growth) closing = space.growth->relative_rate_at(now) * dot(r, n);
+  if (space.growth) {
+    const Quad distance = (Quad(bodies[0].diameter) + bodies[1].diameter) / 2;
+    closing = space.growth->relative_rate_at(now) * (distance - dot(a.u * s12 - b.u * s21, n));
+  }
   // Of rods, the engine takes a velocity that rounding makes part them as 0.
   const Quad approach = dot(velocity, n) - closing;
   const Quad vn = (wide && approach > 0 ? Quad(0) : approach) + closing;

@@ -194,8 +194,7 @@ double excess_over_wall_rule(const Needle& needle, const Wall& wall, const Insta
   const Quad vn = tip - n * surface;
   Quad closing = 0;
   if (space.growth) {
-    const Quad distance =
-        n * (there.r[wall.axis] - place_at(wall, now) - wall.amplitude * std::sin(phase));
+    const Quad distance = body.diameter / 2 * scale - n * lift * arm;
     closing = space.growth->relative_rate_at(now) * distance;
   }
   const Quad inverse_mass = body.inverse_mass<Quad>();
