@@ -426,6 +426,7 @@ void Audit::follow(const Instant& now, const Happening& happening,
     const Index index = index_of(i == 0 ? event.first : event.second);
     const StateAfterCollision& after = event.after[static_cast<std::size_t>(i)];
     if (setup_.sliding) cut_contact(index, now);
+    if (cooling_) cooling_->add_flight(needles_[index], space_.gravity, now);
     needles_[index] = Needle(Record{now, vector(after.position), vector(after.velocity),
                                     vector(after.orientation), vector(after.angular_velocity)},
                              needles_[index].body);
@@ -433,6 +434,10 @@ void Audit::follow(const Instant& now, const Happening& happening,
     has_collided_[index] = true;
     met_[index] = now;
     if (happening.kind == Happening::wall) last_touches_[index].note(LastTouches::wall, now);
+  }
+  if (cooling_ && happening.is_collision()) {
+    const Needle &a = needles_[index_of(event.first)], &b = needles_[index_of(event.second)];
+    cooling_->add_collision(dot(nearest_separation(a, b), vector(event.impulse)));
   }
   if (judgement) {
     note_meeting(index_of(event.first), index_of(event.second), now, judgement->crowded);

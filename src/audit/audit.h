@@ -310,6 +310,7 @@ class Audit {
   double energy() const;
   double packing_fraction() const;
   bool has_no_room(double scale) const;
+  bool is_at_pressure(double pressure) const;
 
   Setup setup_;
   double unit_;                      ///< of lengths: a power of two that no needle is longer than

@@ -41,13 +41,30 @@ std::optional<double> Cooling::collisions_of(const Scene::Growth& growth, std::s
 Cooling::Cooling(double collisions, std::span<const Needle> needles)
     : wanted_(collisions), squares_(squares_of(needles)) {}
 
-void Cooling::pass(double is, std::uint64_t collisions) {
+void Cooling::pass(double is, std::uint64_t collisions, std::size_t bodies) {
   constexpr double most_change = 8;
   last_ = next(is);
   if (!(step_ > 0)) step_ = is;
   const double counted = static_cast<double>(collisions - collisions_);
   step_ *= std::clamp(wanted_ / std::max(counted, 0.5), 1 / most_change, most_change);
   collisions_ = collisions;
+  const double enough = std::min(wanted_, static_cast<double>(bodies));
+  if (static_cast<double>(collisions - measured_) < enough) return;
+  before_ = std::max(before_, pressure_);
+  pressure_ = 1 + virial_ / integral_;
+  measured_ = collisions;
+  virial_ = integral_ = 0;
+}
+
+// By Simpson's rule, which is exact where needles fall.
+void Cooling::add_flight(const Needle& needle, const Vector<double>& gravity, const Instant& now) {
+  const double age = elapsed<double>(needle.record.time, now).middle;
+  const auto square = [&](double t) {
+    const Vector<double> v = needle.record.v + gravity * t;
+    return dot(v, v);
+  };
+  integral_ +=
+      needle.body.moving_mass() * (square(0) + 4 * square(age / 2) + square(age)) * age / 6;
 }
 
 Quad Cooling::factor(std::span<const Needle> needles, const Vector<double>& gravity,

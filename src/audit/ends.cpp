@@ -181,7 +181,7 @@ void Audit::check_end(const Scene::Until& until, Stop reason, double time) {
       right &= has_moving_walls;
       break;
     case Stop::jammed:
-      right &= has_moving_walls || space_.growth;
+      right &= has_moving_walls || (growth && !growth->until_pressure && is_at_pressure(1e6));
       break;
     case Stop::wall_time:
     case Stop::interrupted:
@@ -190,7 +190,7 @@ void Audit::check_end(const Scene::Until& until, Stop reason, double time) {
       right &= growth && near(packing, growth->until_packing.value_or(packing), sums);
       break;
     case Stop::pressure:
-      right &= growth && growth->until_pressure;
+      right &= growth && growth->until_pressure && is_at_pressure(*growth->until_pressure);
       break;
     case Stop::no_room:
       right &= growth && has_no_room(scale);
@@ -211,6 +211,15 @@ double Audit::packing_fraction() const {
     sum += pi * diameter * diameter * (diameter / 6 + length / 4);
   }
   return static_cast<double>(sum) / (space_.box[0] * space_.box[1] * space_.box[2]);
+}
+
+// Whether bodies that grow are at this pressure for the first time. Where they are never cooled,
+// the times are not known at which it is measured.
+bool Audit::is_at_pressure(double pressure) const {
+  // The engine knows temperatures at the ends of windows only.
+  constexpr double roughly = 0.1;
+  return !cooling_ || (cooling_->pressure() > pressure * (1 - roughly) &&
+                       cooling_->pressure_before() < pressure * (1 + roughly));
 }
 
 // Whether the longest body, so much larger than at the start, has its whole length only between two

@@ -29,12 +29,13 @@ void Audit::add_kick(const State& after, double time) {
       report(Kind::wrong_order, 0, 0, now);
     kicks_ ? check_kick(now, changed) : check_cooling(now, changed);
   }
-  needles_ = std::move(changed);
-  part_all(now);
   if (cooling_) {
-    cooling_->pass(epochs, findings_.collisions);
+    for (const Needle& needle : needles_) cooling_->add_flight(needle, space_.gravity, now);
+    cooling_->pass(epochs, findings_.collisions, needles_.size());
     space_.growth->count_anew();
   }
+  needles_ = std::move(changed);
+  part_all(now);
   last_energy_change_ = energy() - before;
   windows_.begin_again(now, needles_);
   // What it brings about at its instant begins a new order.
