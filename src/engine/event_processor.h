@@ -209,10 +209,11 @@ EventProcessor<S, M>::pair_event(const Event& event) {
   if constexpr (M::Law::has_distance) {
     // The centres are as far apart along the normal as both bodies reach from them: never below 0.
     // A contact without velocity has an impulse of -0.
-    const double apart = pair.distance - contact.arm_first * dot(contact.u_first, contact.normal) +
+    const double distance = pair.distance * (1 + pair.growth * elapsed.hi);
+    const double apart = distance - contact.arm_first * dot(contact.u_first, contact.normal) +
                          contact.arm_second * dot(contact.u_second, contact.normal);
     out.virial = std::max(0.0, dot(out.outcome.impulse, contact.normal) * apart);
-    out.between = contact.normal * pair.distance;
+    out.between = contact.normal * distance;
   }
   if constexpr (M::has_effects) {
     out.between += contact.u_second * contact.arm_second - contact.u_first * contact.arm_first;

@@ -365,10 +365,6 @@ Run::Run(const Scene& scene, const Checkpoint& saved) : Run(scene) {
     require(slide >= 0 && slide <= gas.box.edge(0));
     set_shear(gas, scene, slide);
   }
-  if (effects.growth) {
-    gas.growth.emplace(1, 1);  // until it is read
-    growing.emplace(parameters_of_growing(scene));
-  }
   add_effects(scene);
   if (physics != physics_of(*this, scene)) {
     throw InputError(
@@ -385,6 +381,10 @@ Run::Run(const Scene& scene, const Checkpoint& saved) : Run(scene) {
   // A scene need not say how many needles there are of its only species.
   if (!gas.composition.is_mixture()) gas.composition.set_count(0, count);
   gas.resize(count);
+  if (effects.growth) {
+    gas.growth.emplace(1, 1);  // until it is read
+    growing.emplace(parameters_of_growing(scene));
+  }
   std::vector<Needle> by_id(count);
   for (Needle i{0}; i < count; ++i) by_id[i] = i;
   transfer(archive, by_id);

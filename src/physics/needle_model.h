@@ -27,6 +27,7 @@ class NeedleModel {
     if (Law::has_distance != effects.width || has_sliding != effects.sliding) return false;
     if (Law::turns == effects.spheres || Law::mixes != effects.mixed) return false;
     if (effects.rough && !Law::may_be_rough) return false;
+    if (effects.growth && !Law::has_distance) return false;
     if (effects.contact_time && has_sliding) return false;  // both replace the same bounces
     // Contacts that last are of images at rest, and carry momentum besides flights and collisions.
     if (has_sliding && (effects.shear || effects.stress)) return false;

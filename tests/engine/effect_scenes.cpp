@@ -119,6 +119,16 @@ Scene pistons() {
   return scene;
 }
 
+// Cooled now and then.
+Scene growing(Scene scene, double rate) {
+  scene.driving = {};
+  Scene::Growth& growth = scene.driving.growth.emplace();
+  growth.rate = rate;
+  growth.until_packing = 0.6;
+  growth.cool_every = 2;
+  return scene;
+}
+
 // Beside walls that leave it, one of them faster than needles follow until it stops.
 Scene released() {
   Scene scene = mixture();
@@ -264,6 +274,14 @@ std::vector<EffectScene> effect_scenes() {
   add("sizes_of_spheres", sizes_of_spheres(), until_collisions(12));
   add("sheared_sizes", sheared(sizes(), 0.7, 1.1), until_collisions(6)).driving = {};
   add("among_fixed", among_fixed(), until_collisions(8));
+
+  add("growing_spheres", growing(rods_of(150, 0, 0.3), 0.05), until_collisions(30));
+  add("growing_rods", growing(rods_of(120, 3, 0.15), 0.02), until_collisions(12));
+  add("growing_sizes", growing(sizes_of_spheres(), 0.3), until_collisions(12)).collisions.tc = 1e-3;
+  Scene& settling =
+      add("growing_between_walls", growing(rods_and_spheres(40, 9), 0.05), until_collisions(10));
+  settling.walls = {wall("z", "both", 0.8), {.axis = "x", .side = "both", .temperature = 1}};
+  settling.forces.gravity = {0, 0.2, -0.5};
 
   add("sliding", sliding(100, 5, 0), until_time(1));
   add("sliding_after_bounces", sliding(100, 5, 0.5), until_collisions(12));

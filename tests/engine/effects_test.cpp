@@ -146,8 +146,10 @@ TEST_P(EveryEffect, HasOneTrajectoryOnThreads) {
     other->advance(end);
     ASSERT_NO_FATAL_FAILURE(expect_the_same(truth, other));
   }
-  // A simulation does kicks, not its loop.
-  if (large.driving.kicks || large.walls.empty() || large.forces.gravity[0] != 0) return;
+  // A simulation kicks needles and cools those that grow, not its loop.
+  if (large.driving.kicks || large.driving.growth || large.walls.empty() ||
+      large.forces.gravity[0] != 0)
+    return;
   needlework::Run run(large, make_gas(large, draw_initial_state(large)));
   const auto loop =
       test::parallel_loop(run, "capsules", 3, {.sight = 0.3, .least = 1, .by_cost = false});
@@ -187,6 +189,9 @@ std::vector<Scene> other_scenes(const Scene& scene) {
   add(scene.driving.kicks.has_value(), [](Scene& s) { s.driving.kicks->rotational += 1; });
   add(scene.driving.andersen.has_value(), [](Scene& s) { s.driving.andersen->rate += 1; });
   add(scene.driving.kicks || scene.driving.andersen, [](Scene& s) { s.needles.seed += 1; });
+  add(scene.driving.growth.has_value(), [](Scene& s) { s.driving.growth->rate *= 1.01; });
+  add(scene.driving.growth.has_value(), [](Scene& s) { *s.driving.growth->until_packing += 0.01; });
+  add(scene.driving.growth.has_value(), [](Scene& s) { *s.driving.growth->cool_every *= 1.01; });
   return out;
 }
 

@@ -35,7 +35,7 @@ TEST(ModelChoice, LeavesNoEffectOut) {
                                 &Effects::passing, &Effects::width,        &Effects::spheres,
                                 &Effects::mixed,   &Effects::sliding,      &Effects::sources,
                                 &Effects::kicks,   &Effects::gravity,      &Effects::shear,
-                                &Effects::stress};
+                                &Effects::stress,  &Effects::growth};
   static_assert(sizeof(Effects) == sizeof all / sizeof all[0], "an effect is missing above");
   for (unsigned set = 1; set < 1u << std::size(all); ++set) {
     Effects effects;
@@ -43,7 +43,7 @@ TEST(ModelChoice, LeavesNoEffectOut) {
     const bool impossible =
         ((effects.spheres || effects.mixed) && !effects.width) ||
         (effects.spheres && effects.mixed) || (effects.width && effects.rough && !effects.mixed) ||
-        (effects.width && effects.sliding) ||
+        (effects.width && effects.sliding) || (effects.growth && !effects.width) ||
         (effects.sliding &&
          (effects.rough || effects.contact_time || effects.shear || effects.stress));
     const std::string expected = impossible        ? "none"
