@@ -36,9 +36,9 @@ Scene between_walls() {
 
 TEST(AuditOfGrowth, FindsNothingWrongWithTheEngine) {
   std::vector<Scene> scenes = {
-      growing(rods_of(60, 0, 0.2), 0.1, 0.55), growing(rods_of(60, 0, 0.4), 1e-3, 0.45),
-      growing(rods_of(60, 3, 0.08), 0.05, 0.2),  growing(rods_of(40, 1, 0.1), 0.02, 0.5),
-      growing(rods_and_spheres(15, 9), 0.03),  between_walls()};
+      growing(rods_of(60, 0, 0.2), 0.1, 0.55),  growing(rods_of(60, 0, 0.4), 1e-3, 0.45),
+      growing(rods_of(60, 3, 0.08), 0.05, 0.2), growing(rods_of(40, 1, 0.1), 0.02, 0.5),
+      growing(rods_and_spheres(15, 9), 0.03),   between_walls()};
   scenes[0].driving.growth->cool_every = 0;
   scenes[2].collisions.epsilon = 0.9;
   scenes[2].collisions.tc = 1e-3;
@@ -179,6 +179,41 @@ TEST(AuditOfGrowth, SeesOtherEnds) {
   EXPECT_EQ(wrong_ends([](auto&, Stop& stop, auto&) { stop = Stop::pressure; }), 1u);
   EXPECT_EQ(wrong_ends([](auto&, Stop& stop, auto&) { stop = Stop::no_room; }), 1u);
   EXPECT_EQ(wrong_ends([](auto&, Stop& stop, auto&) { stop = Stop::nothing_can_happen; }), 1u);
+}
+
+TEST(AuditOfGrowth, SeesOtherPressuresAtTheEnd) {
+  Scene scene = rods_of(50, 0, 0.3);
+  scene.driving.growth = Scene::Growth{.rate = 0.05, .until_pressure = 12};
+  const RecordedRun run(scene, scene.until);
+  EXPECT_EQ(run.stop, Stop::pressure);
+  const auto wrong = [&](double pressure) {
+    RecordedRun other = run;
+    other.setup.share = 0;  // no flights of pairs
+    other.setup.driving.growth->until_pressure = pressure;
+    return other
+        .audited([&](audit::Audit& audit) { audit.check_end(scene.until, run.stop, run.end); })
+        .count(Kind::wrong_end);
+  };
+  EXPECT_EQ(wrong(12), 0u);
+  EXPECT_EQ(wrong(20), 1u);
+  EXPECT_EQ(wrong(8), 1u);
+}
+
+// All at one velocity, so that nothing else brings them together.
+TEST(AuditOfGrowth, FindsNothingWrongWithBodiesThatMoveAlike) {
+  const Scene scene = growing(rods_of(20, 1, 0.1), 0.05, 0.3);
+  State alike = Simulation(scene).copy();
+  alike.velocity.assign(alike.size(), {1, 0.5, 0});
+  alike.angular_velocity.assign(alike.size(), {});
+  Simulation simulation(scene, alike);
+  audit::Audit audit(simulation.copy(), audit_setup(scene, simulation.epoch_length()));
+  simulation.on_happening([&](const Happening& happening) { audit.add(happening); });
+  simulation.on_kick([&] { audit.add_kick(simulation.copy(), simulation.time()); });
+  const Stop stop = simulation.advance(until_collisions(5));
+  audit.finish(simulation.time());
+  audit.check_end(until_collisions(5), stop, simulation.time());
+  expect_clean(audit.findings(), name_of(stop));
+  EXPECT_GT(simulation.collisions(), 20u);
 }
 
 TEST(AuditOfGrowth, RefusesARelativeContactTime) {

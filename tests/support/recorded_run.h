@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "src/audit/audit.h"
@@ -31,7 +32,8 @@ struct RecordedRun {
     record(simulation, until);
   }
 
-  audit::Findings audited() const {
+  /// `at_end` may check more of the audit.
+  audit::Findings audited(const std::function<void(audit::Audit&)>& at_end = {}) const {
     audit::Audit audit(initial, setup);
     audit.check_start(scene, nullptr);
     auto kick = kicks.begin();
@@ -41,6 +43,7 @@ struct RecordedRun {
       if (n < happenings.size()) audit.add(happenings[n]);
     }
     audit.finish(end);
+    if (at_end) at_end(audit);
     return audit.findings();
   }
   /// Leaves out the n-th of what has happened, or adds something before it.
