@@ -101,8 +101,8 @@ typedef struct needlework_initial {
   needlework_const_vectors position;          /* centres, inside the box or not */
   needlework_const_vectors velocity;          /* absent: all 0 */
   needlework_const_vectors orientation;       /* directors, of any length but 0 */
-  needlework_const_vectors angular_velocity;  /* of which the part normal to the director counts;
-                                                 absent: all 0 */
+  needlework_const_vectors angular_velocity;  /* of which the part normal to the director counts,
+                                                 of spheres all; absent: all 0 */
   const uint32_t* id;                         /* distinct; NULL: 0 to count - 1 */
   needlework_const_vectors peculiar_velocity; /* in place of velocity, which must be absent:
                                                  beside the flow of [shear] */
@@ -455,6 +455,28 @@ typedef struct needlework_contacts {
 NEEDLEWORK_API int needlework_get_contacts(needlework_simulation* simulation,
                                            needlework_contacts* contacts);
 
+/* ---- Growth ---------------------------------------------------------------------------------- */
+
+/* Sizes, packing and pressure of bodies that grow. */
+typedef struct needlework_growth {
+  /* numbers of growth */
+  /* Present sizes of bodies in those of the start */
+  double scale;
+  /* What this scale gains in a unit of time [per time] */
+  double rate;
+  /* Share of the volume of the box that bodies take up now */
+  double packing_fraction;
+  /* P V / (N T) by the virial, as it was last measured, over the collisions between two times at
+   * which velocities were scaled back; NaN before */
+  double pressure;
+  /* end of numbers */
+} needlework_growth;
+
+/* Copies what is known of bodies that grow; in a scene without driving.growth the scale is 1, the
+ * rate 0 and the pressure NaN. [handle] */
+NEEDLEWORK_API int needlework_get_growth(needlework_simulation* simulation,
+                                         needlework_growth* growth);
+
 /* ---- Pressure tensor ------------------------------------------------------------------------- */
 
 /* Pressure tensor since the start, a mean over the run. The first letter of an index is the axis
@@ -590,6 +612,10 @@ typedef struct needlework_energy_budget {
   double gravity;
   /* Energy by uniform shear [energy] */
   double shear;
+  /* Energy by growth, which pushes bodies apart [energy] */
+  double growth;
+  /* Energy by velocities that are scaled back as bodies grow [energy] */
+  double cooling;
   /* end of numbers */
 } needlework_energy_budget;
 
@@ -667,7 +693,8 @@ typedef struct needlework_bodies {
   const double* length;   /* of the axes, without the caps */
   const double* diameter; /* 0: thin needles */
   const double* mass;     /* infinite of fixed needles */
-  const double* inertia;  /* about axes through the centre, normal to the needle's; 0 of spheres */
+  const double* inertia;  /* about axes through the centre, normal to the needle's; 0 of smooth
+                             spheres */
 } needlework_bodies;
 
 /* needlework_create_with_species() for such bodies, by the rows of `initial`. NULL: the needles of

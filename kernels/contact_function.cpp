@@ -145,9 +145,8 @@ Frame<DoubleDouble> make_frame<DoubleDouble>(const Pair& pair, const PairScale& 
   for (int i = 0; i < 2; ++i) {
     out.u[i] = to_double_double(flight[i]->u);
     // |w| and w x u / |w| again, to full precision; w first scaled by a power of two of its own.
-    const double size = largest(flight[i]->w);
-    if (size > 0) {
-      const int exponent = exponent_of(size);
+    if (flight[i]->omega > 0) {
+      const int exponent = exponent_of(largest(flight[i]->w));
       const Vec3dd w = to_double_double(Vec3d{times_power_of_two(flight[i]->w.x, -exponent),
                                               times_power_of_two(flight[i]->w.y, -exponent),
                                               times_power_of_two(flight[i]->w.z, -exponent)});

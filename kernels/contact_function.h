@@ -27,16 +27,17 @@
 namespace needlework::kernels {
 
 /// A needle's free flight since its record: r(t) = r + v t, u(t) = u cos(|w| t) + p sin(|w| t).
+/// Of a sphere u is at rest, as it marks nothing.
 struct Flight {
   Vec3d r;           ///< centre [L]
   Vec3d v;           ///< velocity [L / time]
   Vec3d u;           ///< director
-  Vec3d w;           ///< angular velocity, normal to u [1 / time]
+  Vec3d w;           ///< angular velocity, normal to u unless it is that of a sphere [1 / time]
   Vec3d p;           ///< w x u / |w|, or 0
-  double omega = 0;  ///< |w|
+  double omega = 0;  ///< |w|; 0 of spheres
 };
 
-/// Fills in p and omega from u and w.
+/// Fills in p and omega from u and w, of a needle or rod.
 void set_rotation(Flight& flight);
 
 /// Centre and director after `elapsed`.
@@ -118,7 +119,7 @@ struct Frame {
   double r_norm = 0, v_norm = 0, w_sum = 0;  ///< |r|, |v| and omega1 + omega2, not below
   double v_length = 0;                       ///< 2-norm of v, not below
   double half[2] = {0.5, 0.5};               ///< half lengths
-  T growth{};  ///< of bodies that grow (kernels/rod_pair.h), per scaled time; r and v are comoving
+  double growth = 0;  ///< of bodies that grow (kernels/rod_pair.h), per scaled time
 };
 
 template <class T>

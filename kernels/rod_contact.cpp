@@ -183,7 +183,7 @@ bool RodSearch::meets_at_once(const Instant<double>& start) {
 Contact RodSearch::run(double from, double until) {
   const double end = until * rods_.scale().per_time;
   const double reach = frame().half[0] + frame().half[1] + rods_.distance();
-  const TimeSpan overlap = sphere_overlap(frame().r, frame().v, reach);
+  TimeSpan overlap = sphere_overlap(frame().r, frame().v, reach);
   // Rods whose centres are beyond reach at s = 0 are farther apart than at a contact.
   std::optional<Instant<double>> start;
   if (overlap.begin <= 0 && overlap.end >= 0) {
@@ -195,9 +195,10 @@ Contact RodSearch::run(double from, double until) {
     }
   }
   if (!rods_.scale().moves) return {};
-  last_ = std::min(end, time_of_comoving(frame(), overlap.end * roundup));
-  first_ = std::max({0.0, from * rods_.scale().per_time,
-                     time_of_comoving(frame(), overlap.begin * (1 - 0x1p-20) - 0x1p-40)});
+  if (frame().growth > 0) [[unlikely]]
+    overlap = {time_of_comoving(frame(), overlap.begin), time_of_comoving(frame(), overlap.end)};
+  last_ = std::min(end, overlap.end * roundup);
+  first_ = std::max({0.0, from * rods_.scale().per_time, overlap.begin * (1 - 0x1p-20) - 0x1p-40});
   if (rods_.are_touching() && from == 0) first_ = 0;
   if (!(first_ <= last_)) return {};
   // A contact at the end of an interval belongs to it, so the first ends at first_ or later.

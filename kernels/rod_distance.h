@@ -29,8 +29,7 @@ RodRates rod_rates(const Frame<T>& frame) {
   const double w0 = to_double(frame.omega[0]), w1 = to_double(frame.omega[1]);
   const double tip0 = frame.half[0] * w0, tip1 = frame.half[1] * w1;
   return {.velocity = (frame.v_length + (tip0 + tip1)) * roundup,
-          .acceleration =
-              ((tip0 * w0 + tip1 * w1) + 2 * to_double(frame.growth) * frame.v_length) * roundup,
+          .acceleration = ((tip0 * w0 + tip1 * w1) + 2 * frame.growth * frame.v_length) * roundup,
           .squares = frame.v_length * frame.v_length + (tip0 * tip0 + tip1 * tip1)};
 }
 
@@ -87,8 +86,8 @@ NEEDLEWORK_INLINE void set_nearest(RodSample<T>& at, const double (&half)[2]) {
   at.square = dot(at.gap, at.gap);
 }
 
-/// The rods of a frame at time s.
-template <class T>
+/// The rods of a frame at time s, which grow or do not.
+template <bool grows, class T>
 NEEDLEWORK_INLINE RodSample<T> rods_at(const Frame<T>& frame, const T& s) {
   RodSample<T> out;
   double turned = 0, off = 0;
@@ -101,22 +100,30 @@ NEEDLEWORK_INLINE RodSample<T> rods_at(const Frame<T>& frame, const T& s) {
     turned += frame.half[i] * of_director;
     off += of_director;
   }
-  out.r = frame.r + frame.v * comoving_time(frame, s);
+  const Centres<T> centres = centres_at<grows>(frame, s);
+  out.r = centres.r;
   out.x = director_product(out.u[0], out.u[1]);
   set_nearest(out, frame.half);
-  const Vec3<T> speed =
-      velocity_at(frame, s) + (out.turn[0] * out.arm[0] - out.turn[1] * out.arm[1]);
+  const Vec3<T> speed = centres.v + (out.turn[0] * out.arm[0] - out.turn[1] * out.arm[1]);
   const T along = dot(out.gap, speed);
   out.rate = along + along;
-  // r is a difference rounded once, a product and a sum: fewer than 8 roundoffs, and fewer than 16
-  // where the velocity and its time are comoving. A director is off
+  // r is a difference rounded once, a product and a sum: fewer than 8 roundoffs. A director is off
   // by that of the sine and the cosine, of its phase and of the products and the sum, 24 and
   // 8 |phase| at most.
-  out.error = unit_roundoff<T> * ((to_double(frame.growth) == 0 ? 8 : 16) *
-                                      (frame.r_norm + frame.v_norm * std::abs(to_double(s))) +
-                                  turned);
+  out.error =
+      unit_roundoff<T> * (8 * (frame.r_norm + frame.v_norm * std::abs(to_double(s))) + turned);
   out.director_error = unit_roundoff<T> * off;
   return out;
+}
+template <class T>
+[[gnu::noinline, gnu::cold]] RodSample<T> growing_rods_at(const Frame<T>& frame, const T& s) {
+  return rods_at<true>(frame, s);
+}
+template <class T>
+NEEDLEWORK_INLINE RodSample<T> rods_at(const Frame<T>& frame, const T& s) {
+  if (frame.growth > 0) [[unlikely]]
+    return growing_rods_at(frame, s);
+  return rods_at<false>(frame, s);
 }
 
 }  // namespace needlework::kernels

@@ -55,7 +55,11 @@ class RodInstants {
   T threshold();
   double threshold_error() const { return threshold_error_; }  ///< of the one in double
   template <class T>
-  Instant<T> at(const T& s);
+  [[gnu::noinline]] Instant<T> at(const T& s) {
+    if (frame_.growth > 0) [[unlikely]]
+      return growing(s);
+    return instant<false>(s);
+  }
 
   /// Takes up how the rods are at s = 0: where they touch there to within rounding, the distance at
   /// contact may be the one that they have then.
@@ -86,6 +90,12 @@ class RodInstants {
   }
 
  private:
+  template <bool grows, class T>
+  NEEDLEWORK_INLINE Instant<T> instant(const T& s);
+  template <class T>
+  [[gnu::noinline, gnu::cold]] Instant<T> growing(const T& s) {
+    return instant<true>(s);
+  }
   double largest_speed(const Vec3d& v, const Vec3d& first_turn, const Vec3d& second_turn) const;
   template <class T>
   double rate_error_of(const Instant<T>& now) const;
@@ -129,12 +139,12 @@ T RodInstants::threshold() {
   }
 }
 
-template <class T>
-Instant<T> RodInstants::at(const T& s) {
+template <bool grows, class T>
+NEEDLEWORK_INLINE Instant<T> RodInstants::instant(const T& s) {
   ++(std::is_same_v<T, double> ? counters_.evaluated : counters_.escalated);
   Instant<T> out;
   out.s = s;
-  out.rods = rods_at(frame<T>(), s);
+  out.rods = rods_at<grows>(frame<T>(), s);
   const double square = to_double(out.rods.square);
   out.distance = std::sqrt(square);
   out.excess = to_double(out.rods.square - threshold<T>());
@@ -142,8 +152,13 @@ Instant<T> RodInstants::at(const T& s) {
   out.error = (2 * out.distance + length) * length + 4 * unit_roundoff<T> * square;
   if constexpr (std::is_same_v<T, double>) out.error += threshold_error_;
   out.rate = to_double(out.rods.rate);
-  out.speed = largest_speed(velocity_at(frame_, to_double(s)), to_double(out.rods.turn[0]),
-                            to_double(out.rods.turn[1]));
+  const auto speed_with = [&](const Vec3d& v) {
+    return largest_speed(v, to_double(out.rods.turn[0]), to_double(out.rods.turn[1]));
+  };
+  if constexpr (grows)
+    out.speed = speed_with(centres_at<true>(frame_, to_double(s)).v);
+  else
+    out.speed = speed_with(frame_.v);
   out.rate_error = rate_error_of(out);
   return out;
 }

@@ -40,26 +40,19 @@ RodPair exchanged(RodPair pair) {
   return pair;
 }
 
-// Kept out of the code of bodies that do not grow.
-template <class T>
-[[gnu::noinline]] void let_grow(Frame<T>& frame, double growth) {
-  frame.growth = T(growth);
-  frame.v = frame.v - frame.r * frame.growth;
-  // Errors count relative to what the difference is made of.
-  frame.v_norm = (frame.v_norm + growth * frame.r_norm) * roundup;
-  frame.v_length = size_of(to_double(frame.v)) * roundup + unit_roundoff<double> * frame.v_norm;
-}
-
 }  // namespace
 
 template <class T>
-Frame<T> rod_frame(const RodPair& pair, const PairScale& scale) {
-  Frame<T> out = make_frame<T>(pair, scale);
-  if (pair.growth != 0) let_grow(out, pair.growth * scale.per_rate);
-  return out;
+void let_grow(Frame<T>& frame, double growth) {
+  frame.growth = growth;
+  frame.v = frame.v - frame.r * T(growth);
+  // Errors count relative to what the difference is made of, and there are twice as many.
+  frame.r_norm *= 2;
+  frame.v_norm = (2 * frame.v_norm + growth * frame.r_norm) * roundup;
+  frame.v_length = size_of(to_double(frame.v)) * roundup + unit_roundoff<double> * frame.v_norm;
 }
-template Frame<double> rod_frame(const RodPair&, const PairScale&);
-template Frame<DoubleDouble> rod_frame(const RodPair&, const PairScale&);
+template void let_grow(Frame<double>&, double);
+template void let_grow(Frame<DoubleDouble>&, double);
 
 PairScale rod_scale_of(const RodPair& pair) {
   const double reach = (pair.half_first + pair.half_second) + pair.distance;

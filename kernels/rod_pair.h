@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "kernels/contact_function.h"
+#include "kernels/inline.h"
 
 namespace needlework::kernels {
 
@@ -18,31 +19,41 @@ struct RodPair : Pair {
   double growth = 0;
 };
 
+/// Makes a frame comoving.
+template <class T>
+void let_grow(Frame<T>& frame, double growth);
+
 /// The pair in scaled lengths and time. Of bodies that grow, lengths are comoving: divided by
 /// 1 + growth s, so that the bodies keep their sizes and directors turn as ever. The centres then
 /// move along the straight line r + v s', with s' = s / (1 + growth s) and v less growth r in place
 /// of the velocity.
 template <class T>
-Frame<T> rod_frame(const RodPair& pair, const PairScale& scale);
-
-/// s' of s, and s of s'; the latter is infinite from s' = 1 / growth on.
-template <class T>
-T comoving_time(const Frame<T>& frame, const T& s) {
-  return to_double(frame.growth) == 0 ? s : s / (T(1.0) + frame.growth * s);
+Frame<T> rod_frame(const RodPair& pair, const PairScale& scale) {
+  Frame<T> out = make_frame<T>(pair, scale);
+  if (pair.growth > 0) [[unlikely]]
+    let_grow(out, pair.growth * scale.per_rate);
+  return out;
 }
+
+/// s of s'; infinite from s' = 1 / growth on.
 template <class T>
 T time_of_comoving(const Frame<T>& frame, const T& comoving) {
-  if (to_double(frame.growth) == 0) return comoving;
-  const T left = T(1.0) - frame.growth * comoving;
+  if (!(frame.growth > 0)) return comoving;
+  const T left = T(1.0) - T(frame.growth) * comoving;
   if (!(to_double(left) > 0)) return T(std::numeric_limits<double>::infinity());
   return comoving / left;
 }
-/// The rate of change of r at s. It becomes no larger.
+/// r at s, and its rate of change, which becomes no larger.
 template <class T>
-Vec3<T> velocity_at(const Frame<T>& frame, const T& s) {
-  if (to_double(frame.growth) == 0) return frame.v;
-  const T shrunk = T(1.0) / (T(1.0) + frame.growth * s);
-  return frame.v * (shrunk * shrunk);
+struct Centres {
+  Vec3<T> r, v;
+};
+/// `grows` is whether bodies do, so that the code of others does not ask.
+template <bool grows, class T>
+NEEDLEWORK_INLINE Centres<T> centres_at(const Frame<T>& frame, const T& s) {
+  if constexpr (!grows) return {frame.r + frame.v * s, frame.v};
+  const T shrunk = T(1.0) / (T(1.0) + T(frame.growth) * s);
+  return {frame.r + frame.v * (s * shrunk), frame.v * (shrunk * shrunk)};
 }
 
 /// Powers of two that scale a pair so that the largest distance of the centres at a contact lies in

@@ -87,7 +87,7 @@ bool RodStretches::stays_beyond_plane(const Instant<T>& a, const Instant<T>& b, 
                  sine = to_double(dot(n, a.rods.turn[i]));
     bend += half * omega * std::sqrt(cosine * cosine + sine * sine);
   }
-  if (frame().growth != 0) bend += of_growth(to_double(n));
+  if (frame().growth > 0) bend += of_growth(to_double(n));
   const double h = to_double(b.s - a.s);
   const double error = 2 * (a.rods.error + b.rods.error);
   // What double-double does not tell from a touch is none of the contacts.
@@ -100,14 +100,15 @@ bool RodStretches::stays_beyond_plane(const Instant<T>& a, const Instant<T>& b, 
 inline bool RodStretches::stays_apart_for(const Instant<double>& a, double h) const {
   if (!(a.excess > a.error)) return false;
   const Vec3d n = a.rods.gap * (1 / a.distance);
-  double beyond = dot(n, a.rods.r) + dot(n, velocity_at(frame(), a.s)) * h, bend = 0;
+  const Vec3d v = frame().growth > 0 ? centres_at<true>(frame(), a.s).v : frame().v;
+  double beyond = dot(n, a.rods.r) + dot(n, v) * h, bend = 0;
   for (int i = 0; i < 2; ++i) {
     const double half = frame().half[i], omega = frame().omega[i];
     const double along = dot(n, a.rods.u[i]), turn = dot(n, a.rods.turn[i]);
     beyond -= half * std::abs(along + turn * h);
     bend += half * omega * std::sqrt(omega * along * (omega * along) + turn * turn);
   }
-  if (frame().growth != 0) bend += of_growth(n);
+  if (frame().growth > 0) bend += of_growth(n);
   const double noise = 0x1p-40 * (frame().r_norm + rods_.rates().velocity * (std::abs(a.s) + h));
   return beyond - 0.5 * bend * h * h * roundup >
          rods_.distance() * roundup + 4 * a.rods.error + noise;

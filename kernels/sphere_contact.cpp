@@ -16,19 +16,16 @@ struct Spheres {
   Vec3d r, v;      // of the first less those of the second, at s = 0; comoving (kernels/rod_pair.h)
   double contact;  // square of the distance at contact
   double vv;
-  double size_vv;  // what rounding errors of vv are relative to
-  double growth;
 
   explicit Spheres(const RodPair& pair)
       : r(to_double(separation(pair))),
         v(pair.fall ? to_double(falling_velocity(pair)) : pair.first->v - pair.second->v),
         contact(pair.distance * pair.distance),
-        vv(dot(v, v)),
-        size_vv(vv),
-        growth(pair.growth) {
-    if (growth == 0) return;
-    // 8, as v is rounded more often.
-    size_vv = 8 * (vv + growth * growth * dot(r, r));
+        vv(dot(v, v)) {
+    if (pair.growth > 0) [[unlikely]]
+      let_grow(pair.growth);
+  }
+  [[gnu::noinline]] void let_grow(double growth) {
     v = v - r * growth;
     vv = dot(v, v);
   }
@@ -40,13 +37,22 @@ struct Spheres {
 // Where comoving time is nearer to its end than this share, double loses digits of the time.
 constexpr double least_left = 0x1p-6;
 
+// Bound on the error of the discriminant: the comoving velocity is rounded more often, and by a
+// share of what it is the difference of.
+[[gnu::noinline]] double error_where_growing(const RodPair& pair, double size, double of_contact,
+                                             double rr) {
+  const Vec3d v = pair.fall ? to_double(falling_velocity(pair)) : pair.first->v - pair.second->v;
+  const double size_vv = 8 * (dot(v, v) + pair.growth * pair.growth * rr);
+  return (16 * unit_roundoff<double> * size + of_contact) * size_vv;
+}
+
 // Nothing where they touch at s = 0, where rounding might decide, or where squares of their numbers
 // might overflow or lose digits.
 std::optional<Contact> quick_contact(const RodPair& pair, double until,
                                      EvaluationCounters& counters) {
   const Spheres spheres(pair);
   if (!spheres.are_moderate()) return std::nullopt;
-  const auto& [r, v, contact, vv, size_vv, growth] = spheres;
+  const auto& [r, v, contact, vv] = spheres;
   const double rr = dot(r, r), size = rr + contact, excess = rr - contact;
   // The places are rounded once, as are their squares, sums and that of the distance.
   const double of_contact = unit_roundoff<double> * contact;
@@ -59,13 +65,15 @@ std::optional<Contact> quick_contact(const RodPair& pair, double until,
   ++counters.evaluated;
   const Vec3d n = cross(r, v);
   const double d = contact * vv - dot(n, n);
-  const double error_d = (16 * unit_roundoff<double> * size + of_contact) * size_vv;
+  double error_d = (16 * unit_roundoff<double> * size + of_contact) * vv;
+  if (pair.growth > 0) [[unlikely]]
+    error_d = error_where_growing(pair, size, of_contact, rr);
   if (!(d > -error_d)) return Contact{};
   const bool is_known = error <= rod_polish_above * excess && error_d <= rod_polish_above * d;
   if (!is_known) return std::nullopt;
   double s = excess / (std::sqrt(d) - rv);
-  if (growth != 0) {
-    const double left = 1 - growth * s;
+  if (pair.growth > 0) [[unlikely]] {
+    const double left = 1 - pair.growth * s;
     if (!(left > 0)) return Contact{};
     if (left < least_left) return std::nullopt;
     s /= left;
@@ -107,14 +115,14 @@ bool SphereSearch::solve(std::optional<DoubleDouble>& root) {
   const double rr = to_double(dot(r, r)), size = rr + to_double(contact);
   const double of_contact = is_double ? spheres_.threshold_error() : unit_roundoff<T> * size;
   const double error = 6 * unit_roundoff<T> * rr + of_contact;
-  const bool grows = frame.growth != T();
+  const bool grows = frame.growth > 0;
   const double size_vv = grows ? 8 * frame.v_norm * frame.v_norm : to_double(vv);
   const double error_d = (16 * unit_roundoff<T> * size + of_contact) * size_vv;
   // What double-double does not tell from a touch is one.
   if (!(to_double(d) > (is_double ? -error_d : error_d))) return true;
   const T s = excess / (sqrt(d) - dot(r, v));
   root = DoubleDouble(time_of_comoving(frame, s));
-  if (grows && !(to_double(frame.growth * s) <= 1 - least_left) && is_double) return false;
+  if (is_double && grows && !(frame.growth * to_double(s) <= 1 - least_left)) return false;
   return error <= rod_polish_above * to_double(excess) &&
          error_d <= rod_polish_above * to_double(d);
 }
@@ -168,12 +176,13 @@ ContactGeometry sphere_geometry(const RodPair& pair, const DoubleDouble& elapsed
   const Vec3d x = cross(out.u_first, out.u_second);
   out.sin_angle = std::sqrt(dot(x, x));
   const Spheres spheres(pair);
-  Vec3d gap = spheres.r + spheres.v * (elapsed.hi / (1 + spheres.growth * elapsed.hi));
+  Vec3d gap = spheres.r + spheres.v * (elapsed.hi / (1 + pair.growth * elapsed.hi));
   if (!spheres.are_moderate()) {
     // Shorter or longer normals would lose digits.
     const PairScale scale = rod_scale_of(pair);
     const Frame<double> frame = rod_frame<double>(pair, scale);
-    gap = frame.r + frame.v * comoving_time(frame, elapsed.hi * scale.per_time);
+    const double s = elapsed.hi * scale.per_time;
+    gap = (pair.growth > 0 ? centres_at<true>(frame, s) : centres_at<false>(frame, s)).r;
   }
   const double length = std::sqrt(dot(gap, gap));
   out.normal = {gap.x / length, gap.y / length, gap.z / length};

@@ -13,7 +13,9 @@ module needlework
                                needlework_stop_energy = 2, needlework_stop_wall_time = 3, &
                                needlework_stop_interrupted = 4, &
                                needlework_stop_nothing_can_happen = 5, &
-                               needlework_stop_walls_meet = 6, needlework_stop_jammed = 7
+                               needlework_stop_walls_meet = 6, needlework_stop_jammed = 7, &
+                               needlework_stop_grown = 8, needlework_stop_pressure = 9, &
+                               needlework_stop_no_room = 10
   integer(c_int), parameter :: needlework_data_bytes = 0, needlework_data_json = 1
 
   type, bind(c) :: needlework_error
@@ -184,6 +186,15 @@ module needlework
     ! end of numbers
   end type
 
+  type, bind(c) :: needlework_growth
+    ! numbers of growth
+    real(c_double) :: scale
+    real(c_double) :: rate
+    real(c_double) :: packing_fraction
+    real(c_double) :: pressure
+    ! end of numbers
+  end type
+
   type, bind(c) :: needlework_energy_budget
     ! numbers of energy_budget
     real(c_double) :: pairs
@@ -193,6 +204,8 @@ module needlework
     real(c_double) :: velocities_set
     real(c_double) :: gravity
     real(c_double) :: shear
+    real(c_double) :: growth
+    real(c_double) :: cooling
     ! end of numbers
   end type
 
@@ -367,6 +380,12 @@ module needlework
       import :: c_ptr, c_int, needlework_contacts
       type(c_ptr), value :: simulation
       type(needlework_contacts), intent(out) :: contacts
+    end function
+
+    integer(c_int) function needlework_get_growth(simulation, growth) bind(c)
+      import :: c_ptr, c_int, needlework_growth
+      type(c_ptr), value :: simulation
+      type(needlework_growth), intent(out) :: growth
     end function
 
     integer(c_int) function needlework_get_pressure_tensor(simulation, tensor) bind(c)

@@ -51,7 +51,7 @@ struct Sizes {
 };
 
 /// One species of infinitely thin needles or, with a diameter, of rods of finite width: cylinders
-/// with spherical caps. A rod of length 0 is a sphere, which does not turn.
+/// with spherical caps. A rod of length 0 is a sphere, whose rotation counts only if it is rough.
 struct Species {
   std::string name = {};    ///< any text; names must differ
   std::uint64_t count = 0;  ///< number of needles
@@ -64,6 +64,8 @@ struct Species {
   double diameter = 0.0;    ///< 0: a needle [L]
   /// The moment of inertia as a scene gives it in place of k, which then follows. [m L^2]
   std::optional<double> given_inertia = {};
+  double q = 0;  ///< 4 I / (m D^2) of rough spheres, at most 2/3; 0 of smooth ones, whose rotation
+                 ///< nothing changes; without meaning for others
 
   DrawnSizes drawn = {};
   bool fixed = false;    ///< of infinite mass: they stay where they are, and do not meet each other
@@ -72,10 +74,21 @@ struct Species {
   /// are then means, and k is that of the mean moment of inertia.
   std::optional<Sizes> sizes = {};
 
-  bool turns() const { return length > 0; }
-  /// Moment of inertia about an axis through the centre, normal to the needle; 0 for spheres, whose
-  /// rotation nothing changes. [m L^2]
-  double inertia() const { return turns() ? mass * (length * length) / (2 * k) : 0; }
+  bool has_axis() const { return length > 0; }  ///< whether it is no sphere
+  /// Whether collisions change its rotation.
+  bool turns() const { return has_axis() || q > 0; }
+  /// Rotational degrees of freedom: 2, 3 of rough spheres, 0 of smooth ones.
+  int rotations() const { return has_axis() ? 2 : q > 0 ? 3 : 0; }
+  /// Moment of inertia about an axis through the centre, normal to the needle; 0 for smooth
+  /// spheres, whose rotation nothing changes. [m L^2]
+  double inertia() const {
+    return has_axis() ? mass * (length * length) / (2 * k) : q * mass * (diameter * diameter) / 4;
+  }
+  /// The mean square of the angular velocity at this rotational temperature. [1 / time^2]
+  double w2_at(double its_t_rot) const {
+    if (has_axis()) return 4 * k * its_t_rot / (mass * (length * length));
+    return turns() ? 3 * its_t_rot / inertia() : 0;
+  }
   double extent() const { return length + diameter; }  ///< from end to end; the mean [L]
   /// Of the largest body. [L]
   double greatest_extent() const { return sizes ? sizes->greatest_extent : extent(); }
@@ -167,6 +180,10 @@ class Composition {
   /// Whether these are rods, which collide where their axes are their mean diameter apart.
   bool has_width() const { return widest() > 0; }
   bool are_spheres() const;  ///< whether no body has an axis
+  /// Whether bodies of both species are spheres, which roughness lets turn about any axis.
+  bool are_spheres(std::size_t a, std::size_t b) const {
+    return !species_[a].has_axis() && !species_[b].has_axis();
+  }
   /// Whether thin needles are among bodies that have a width.
   bool is_partly_thin() const;
   /// Whether no two bodies of these species may overlap: they meet, and not as thin needles do, or
@@ -174,8 +191,8 @@ class Composition {
   bool exclude(std::size_t a, std::size_t b) const {
     return contact_distance(a, b) > 0 && !may_overlap(a, b);
   }
-  /// Share of the moving bodies that turn, over which rotational temperatures are averaged; 1 of
-  /// none.
+  /// Half the number of rotational degrees of freedom of a moving body, the mean: 1 of needles and
+  /// of none. The energy per body is 1.5 T_tr plus this times T_rot.
   double turning_share() const;
   /// The distance of the axes of two rods in contact. [L]
   double contact_distance(std::size_t a, std::size_t b) const {

@@ -9,6 +9,7 @@ namespace needlework {
 namespace unit {
 inline constexpr const char* none = "";
 inline constexpr const char* time = "time";
+inline constexpr const char* rate = "per time";
 inline constexpr const char* length = "length";
 inline constexpr const char* area = "length squared";
 inline constexpr const char* wave_number = "radians per length";

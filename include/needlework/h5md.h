@@ -35,6 +35,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "needlework/happening.h"
@@ -205,6 +206,9 @@ struct RecordedRun {
   std::vector<WallTotals> walls;  ///< at the end, without area; the same
   std::vector<double> pressure;   ///< mean over the run on each of these walls
   EnergyBudget energy;            ///< at the end, where there are walls or driving
+  /// Numbers of bodies that grow, at the end: growth_NAME of GrowthTotals and, where it was
+  /// observed, network_NAME of their contact_network.
+  std::vector<std::pair<std::string, double>> growth;
 };
 
 /// Reads a file that a Writer wrote. Throws IoError if it cannot be read, and InputError if

@@ -37,7 +37,7 @@ struct Scene {
     double t_rot = 1.0;  ///< rotational temperature of a drawn state, <I w^2 / 2>
     std::string file;    ///< H5MD file whose last frame is the initial state, or "" to draw it
     std::string packing =
-        "auto";  ///< of rods: "insertion", "lattice", "crossed", or the first two as they can
+        "auto";  ///< of rods: "insertion", "lattice", "crossed", "compress", or what serves first
   };
   struct Collisions {
     double epsilon = 1.0;               ///< normal restitution, [0, 1]

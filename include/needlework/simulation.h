@@ -140,6 +140,8 @@ class Simulation {
   /// The numbers of each needle, in order of id, where those of a species differ or bodies grow, as
   /// they are now; otherwise empty.
   OwnBodies own_bodies() const;
+  /// The same at the start, and empty where those of a species are alike.
+  OwnBodies own_bodies_at_start() const;
   /// What the gas is made of, with the counts of the state; bodies that grow as at the start.
   const Composition& composition() const;
   /// Collisions since the start of the run of each pair of species, by Composition::pair_index.

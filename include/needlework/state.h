@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct Bodies {
   std::vector<double> diameter = {};  ///< 0: thin needles [L]
   std::vector<double> mass = {};      ///< [m]
   std::vector<double> k = {};         ///< m L^2 / (2 I) [1]
+  std::vector<double> q = {};         ///< 4 I / (m D^2) of rough spheres, 0 of others [1]
 
   /// Number of species; 0 if the file says nothing.
   std::size_t species() const {
@@ -30,7 +32,8 @@ struct OwnBodies {
   std::vector<double> length = {};    ///< of the axis, without the caps [L]
   std::vector<double> diameter = {};  ///< [L]
   std::vector<double> mass = {};      ///< [m]
-  std::vector<double> inertia = {};   ///< 0 for spheres; if empty, by k of the species [m L^2]
+  std::vector<double> inertia =
+      {};  ///< 0 for smooth spheres; if empty, by k of the species [m L^2]
 
   bool empty() const {
     return length.empty() && diameter.empty() && mass.empty() && inertia.empty();
@@ -47,6 +50,8 @@ struct State {
                                                    ///< others, walls or open sides end it
   double slide = 0;       ///< of the row of boxes above along x, from 0 to the edge [L]
   double shear_rate = 0;  ///< of the uniform flow, rate * y along x, that they have [1 / time]
+  std::optional<double> scale;  ///< of bodies that grow, their sizes, which are in bodies and
+                                ///< own_bodies, in those of the start; a start needs it not [1]
   std::vector<std::array<double, 3>> position;           ///< centres, inside the box or not [L]
   std::vector<std::array<double, 3>> velocity;           ///< [L / time]
   std::vector<std::array<double, 3>> peculiar_velocity;  ///< beside the flow of [shear], whichever
@@ -57,7 +62,8 @@ struct State {
                                                          ///< since the start; a copy has it where
                                                          ///< an observable follows needles [L]
   std::vector<std::array<double, 3>> orientation;        ///< unit directors [1]
-  std::vector<std::array<double, 3>> angular_velocity;   ///< normal to the director [1 / time]
+  std::vector<std::array<double, 3>> angular_velocity;   ///< normal to the director, but for
+                                                         ///< spheres [1 / time]
   std::vector<std::array<std::int32_t, 3>> image;        ///< number of box crossings along each
                                                          ///< axis; empty: all 0
   std::vector<std::uint32_t> id;                         ///< distinct; empty: 0 to N - 1

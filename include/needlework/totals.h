@@ -127,12 +127,13 @@ struct WallTotals {
 
 /// Bodies that grow.
 struct GrowthTotals {
-  double scale = 1, packing_fraction = 0;
+  double scale = 1, rate = 0, packing_fraction = 0;
   double pressure = std::numeric_limits<double>::quiet_NaN();
 
   template <class Visit>
   constexpr void for_each(Visit&& visit) const {
     visit(Described{"scale", unit::none, "Present sizes of bodies in those of the start"}, scale);
+    visit(Described{"rate", unit::rate, "What this scale gains in a unit of time"}, rate);
     visit(Described{"packing_fraction", unit::none,
                     "Share of the volume of the box that bodies take up now"},
           packing_fraction);

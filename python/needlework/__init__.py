@@ -23,7 +23,7 @@ from .gsd_file import GsdFrame, from_gsd, to_gsd
 from .order import NematicOrder, nematic_order
 from .reading import Events, Recording, Series, VelocitiesSet, read
 from .sweeps import SweepSummary
-from .simulation import (Counters, EnergyBudget, PressureTensor, SceneWarning, Simulation, SlidingContacts,
+from .simulation import (Counters, EnergyBudget, GrowthTotals, PressureTensor, SceneWarning, Simulation, SlidingContacts,
                          SpeciesTotals, Totals, WallTotals)
 from .state import Bodies, State
 from .values import Table, Values

@@ -120,9 +120,29 @@ class Frame(NotPickled):
         """Moment of inertia of each needle about axes normal to its director, [N] [m L^2]."""
         return self._numbers("inertia")
 
+    @property
+    def scale(self) -> float:
+        """Sizes of bodies that grow in those of the start, which the other arrays have; 1 where bodies
+        do not grow."""
+        return self._scale or 1.0
+
+    @cached_property
+    def _scale(self) -> float | None:
+        return self._needles.scale(self._index)
+
+    @cached_property
+    def _bodies(self) -> tuple[Bodies, dict[str, np.ndarray]]:
+        """Of the species and, where these differ, of each needle, as large as they are now."""
+        bodies, own = self._needles.bodies, self._needles.own
+        if self._scale is None:
+            return bodies, own
+        return bodies.grown(self._scale), {
+            name: column * self._scale if name in ("length", "diameter") else column
+            for name, column in own.items()}
+
     def _numbers(self, name: str) -> np.ndarray:
-        return State({"species": self.species, "bodies": self._needles.bodies,
-                      **self._needles.own}).numbers(name)
+        bodies, own = self._bodies
+        return State({"species": self.species, "bodies": bodies, **own}).numbers(name)
 
     @property
     def state(self) -> State:
@@ -131,8 +151,9 @@ class Frame(NotPickled):
         differ, box and low where walls with a velocity move edges, and bodies.
         ``Simulation(scene, **state)`` starts from it."""
         flow = (self._slide[0], self._needles.shear_rate)
-        return State.of((getattr(self, name) for name in ARRAYS), self._needles.bodies,
-                        flow if flow != (0, 0) else None, self._needles.own,
+        bodies, own = self._bodies
+        return State.of((getattr(self, name) for name in ARRAYS), bodies,
+                        flow if flow != (0, 0) else None, own,
                         (self.box, self.low) if "box/low" in self._needles else None)
 
     @property
@@ -356,7 +377,7 @@ class Needles:
 
     def __init__(self, path: str, group: h5py.Group) -> None:
         self._elements = {name: Element(path, group, name) for name in VECTORS}
-        for name in ("image", "id", "species", "box/edges", "box/low"):
+        for name in ("image", "id", "species", "box/edges", "box/low", "box/scale"):
             if _get(group, name) is not None:
                 self._elements[name] = Element(path, group, name)
         if "box/edges" not in self:
@@ -399,6 +420,15 @@ class Needles:
         if not np.all(np.isfinite(values)):
             self._elements["box/low"].reject(f"{values.tolist()}: expected finite numbers")
         return values
+
+    def scale(self, frame: int) -> float | None:
+        """Sizes of bodies that grow in those of the start; None where bodies do not grow."""
+        if "box/scale" not in self:
+            return None
+        value = float(self.row("box/scale", 0, frame, np.float64))
+        if not 0 < value < math.inf:
+            self._elements["box/scale"].reject(f"{value}: expected a finite number > 0")
+        return value
 
     def tilt(self, frame: int) -> float:
         """By how much the second edge of the box is tilted along x."""
@@ -466,6 +496,9 @@ class Needles:
             elif name == "box/low":
                 good = len(shape) in (1, 2) and shape[-1] == 3
                 expected = "[3] or [frames][3]"
+            elif name == "box/scale":
+                good = len(shape) == 1
+                expected = "[frames]"
             elif name in ("id", "species"):
                 good = len(shape) in (1, 2) and shape[-1] == count
                 expected = f"[{count}] or [frames][{count}]"

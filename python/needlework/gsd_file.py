@@ -251,6 +251,8 @@ def _snapshot(frame: Any, gas: Any, names: list[str]) -> Any:
     # One number, or one for each species of a mixture.
     lengths, masses, shapes = (np.atleast_1d(value) for value in (gas.length, gas.mass, gas.k))
     diameters = np.atleast_1d(gas.get("diameter", np.zeros_like(lengths)))
+    scale = frame.scale
+    lengths, diameters, shapes = lengths * scale, diameters * scale, shapes * scale**2
     species = frame.species if len(lengths) > 1 else np.zeros(count, dtype=np.uint8)
     state = frame.state
     own = [name for name in OWN_NUMBERS if name in state]

@@ -181,6 +181,22 @@ class PressureTensor(Values):
     # end of numbers
 
 
+class GrowthTotals(Values):
+    """Sizes, packing and pressure of bodies that grow."""
+
+    # numbers of growth
+    scale: float
+    """Present sizes of bodies in those of the start."""
+    rate: float
+    """What this scale gains in a unit of time [per time]."""
+    packing_fraction: float
+    """Share of the volume of the box that bodies take up now."""
+    pressure: float
+    """P V / (N T) by the virial, as it was last measured, over the collisions between two times
+    at which velocities were scaled back; NaN before."""
+    # end of numbers
+
+
 class SlidingContacts(Values):
     """Contacts of needles that slide on each other, since the start."""
 
@@ -226,6 +242,10 @@ class EnergyBudget(Values):
     """Energy by gravity along periodic axes [energy]."""
     shear: float
     """Energy by uniform shear [energy]."""
+    growth: float
+    """Energy by growth, which pushes bodies apart [energy]."""
+    cooling: float
+    """Energy by velocities that are scaled back as bodies grow [energy]."""
     # end of numbers
 
     @property
@@ -527,7 +547,9 @@ class Simulation(NotPickled):
         ``Simulation(scene, **state)`` starts from it."""
         if self._copy is None:
             *arrays, own = self._run.state()
-            self._copy = State.of(arrays, Bodies.of(self._facts.bodies), self._run.flow(),
+            growth, bodies = self.growth, Bodies.of(self._facts.bodies)
+            self._copy = State.of(arrays, bodies.grown(growth.scale) if growth else bodies,
+                                  self._run.flow(),
                                   own and dict(zip(OWN_NUMBERS, own)),
                                   self._run.box() if self._facts.moving_walls else None)
         return self._copy
@@ -634,6 +656,19 @@ class Simulation(NotPickled):
         """Contacts and how they have ended; None in a scene without collisions.sliding."""
         contacts = self._run.sliding_contacts()
         return None if contacts is None else SlidingContacts(contacts)
+
+    @property
+    def growth(self) -> Optional[GrowthTotals]:
+        """Present sizes, packing fraction and pressure of bodies that grow; None in a scene without
+        driving.growth."""
+        growth = self._run.growth()
+        return None if growth is None else GrowthTotals(growth)
+
+    @property
+    def scale(self) -> float:
+        """Sizes of bodies that grow in those of the start; 1 where bodies do not grow."""
+        growth = self._run.growth()
+        return 1.0 if growth is None else growth["scale"]
 
     @property
     def pressure_tensor(self) -> Optional[PressureTensor]:

@@ -36,6 +36,12 @@ class Bodies(Table):
         return cls({name: tuple(column) if name == "name" else np.array(column, dtype=float)
                     for name, column in columns.items() if len(column)})
 
+    def grown(self, scale: float) -> Bodies:
+        """The same with sizes larger by this factor; masses and moments of inertia stay."""
+        powers = {"length": 1, "diameter": 1, "k": 2}
+        return Bodies({name: column * scale**powers[name] if name in powers else column
+                       for name, column in self.items()})
+
 
 class State(Table):
     """All needles at one instant, in order of id: what Simulation(scene, **state) starts from."""
@@ -55,8 +61,8 @@ class State(Table):
     species: np.ndarray
     """Index of the species of each needle, from 0 in the order of the scene, [N]."""
     bodies: Bodies
-    """What the species are made of, which another scene must not contradict; means where their
-    bodies differ."""
+    """What the species are made of now, which another scene must not contradict; means where
+    their bodies differ."""
     # Where walls with a velocity move edges of the box:
     box: np.ndarray
     """Its edges, [3] [L]."""

@@ -52,7 +52,8 @@ std::vector<AuditedBody> bodies_of(const Composition& composition, double unit) 
                    .length = each.length / unit,
                    .mass = each.mass_or_infinity(),
                    .k = each.k,
-                   .diameter = each.diameter / unit});
+                   .diameter = each.diameter / unit,
+                   .q = each.q});
   }
   return out;
 }
@@ -79,7 +80,11 @@ AuditedBody own_body(const OwnBodies& own, std::size_t i, AuditedBody body, doub
   body.length = length / unit;
   body.diameter = own.diameter.at(i) / unit;
   body.mass = own.mass.at(i);
-  if (length > 0 && std::isfinite(inertia)) body.k = body.mass * (length * length) / (2 * inertia);
+  if (!std::isfinite(inertia)) return body;
+  if (length > 0)
+    body.k = body.mass * (length * length) / (2 * inertia);
+  else
+    body.q = 4 * inertia / (body.mass * (own.diameter.at(i) * own.diameter.at(i)));
   return body;
 }
 

@@ -33,7 +33,8 @@ bool Audit::is_proper(const Needle& needle) const {
     if (!(record.r[axis] >= 0 && record.r[axis] < space_.box[axis])) return false;
   }
   return near(dot(record.u, record.u), 1, rounding) &&
-         std::abs(dot(record.u, record.w)) <= rounding * norm(record.w);
+         (needle.body.has_axis() ? std::abs(dot(record.u, record.w)) <= rounding * norm(record.w)
+                                 : needle.body.q > 0 || norm(record.w) == 0);
 }
 
 // Neither tip is in a wall.
@@ -66,7 +67,7 @@ bool Audit::is_as_given(const Needle& needle, const State& given, std::size_t i)
   const Vector<double> u = director * (1 / norm(director));
   const Vector<double> v = vector(given.velocity[i]) * (epoch / unit_);
   const Vector<double> spin = vector(given.angular_velocity[i]) * epoch;
-  const Vector<double> w = spin - u * dot(u, spin);
+  const Vector<double> w = needle.body.has_axis() ? spin - u * dot(u, spin) : spin;
   double beside = 0, past = 0;  // of the row that it is given in
   for (const int axis : {1, 0, 2}) {
     const double position = given.position[i][axis] / unit_ - (axis == 0 ? beside : 0);
@@ -119,9 +120,10 @@ void Audit::check_start(const Scene& scene, const State* given) {
       const double count = static_cast<double>(species.count);
       if (count == 0) continue;
       t_tr += count * species.t_tr * scale;
-      t_rot += count * species.t_rot * scale;
+      const double rotations = count * bodies_[index].rotations();
+      t_rot += rotations * species.t_rot * scale;
       found_tr += count * found[index].t_tr;
-      found_rot += count * found[index].t_rot;
+      found_rot += rotations * found[index].t_rot;
     }
     Vector<double> momentum{};
     double most = 0;
@@ -252,7 +254,7 @@ bool Audit::is_at_rest() const {
   const Vector<double>& v = needles_.front().record.v;
   return std::ranges::all_of(needles_, [&](const Needle& needle) {
     const Record& record = needle.record;
-    return norm(record.w) == 0 && norm(record.v - v) == 0;
+    return needle.flight.omega.middle == 0 && norm(record.v - v) == 0;
   });
 }
 

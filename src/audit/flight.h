@@ -58,18 +58,19 @@ struct Pose {
 };
 
 /// r(t) = r + v t, u(t) = u cos(omega t) + side sin(omega t). The director is normalised and the
-/// angular velocity made normal to it.
+/// angular velocity made normal to it; that of a body without an axis turns no director.
 template <class T>
 struct Flight {
   Vector<T> r, v, u, side;
   T omega;
 
-  explicit Flight(const Record& record) : r(to<T>(record.r)), v(to<T>(record.v)) {
+  explicit Flight(const Record& record, bool has_axis = true)
+      : r(to<T>(record.r)), v(to<T>(record.v)) {
     const Vector<T> given = to<T>(record.u);
     u = given * (T(1) / norm(given));
     const Vector<T> spin = to<T>(record.w);
     const Vector<T> w = spin - u * dot(u, spin);
-    const bool spins = record.w[0] != 0 || record.w[1] != 0 || record.w[2] != 0;
+    const bool spins = has_axis && (record.w[0] != 0 || record.w[1] != 0 || record.w[2] != 0);
     omega = spins ? norm(w) : T(0);
     side = spins ? cross(w, u) * (T(1) / omega) : Vector<T>{{T(0), T(0), T(0)}};
   }

@@ -95,9 +95,10 @@ double excess_over_kick(const Needle& before, const Vector<double>& gravity, con
   const double speed = magnitude(norm(there.v)) + largest;
   const double spin = magnitude(norm(there.w)) + magnitude(norm(change.w));
   const Vector<Quad> v = there.v + change.v - of_all.v;
-  // Spheres do not turn.
-  const Vector<Quad> turn = change.w * Quad(before.body.length > 0 ? 1 : 0);
-  const Vector<Quad> w = there.w + turn - there.u * dot(there.u, turn);
+  // Spheres turn about any axis, smooth ones do not turn.
+  const bool has_axis = before.body.has_axis(), turns = has_axis || before.body.q > 0;
+  const Vector<Quad> turn = change.w * Quad(turns ? 1 : 0);
+  const Vector<Quad> w = has_axis ? there.w + turn - there.u * dot(there.u, turn) : there.w + turn;
   for (int axis = 0; axis < 3; ++axis) {
     excess.add(v[axis] - Quad(after.v[axis]), off * speed + change.v_off + of_all.v_off);
     excess.add(w[axis] - Quad(after.w[axis]), off * spin + 2 * change.w_off);

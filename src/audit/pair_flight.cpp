@@ -97,7 +97,7 @@ const PairFlight::Precise& PairFlight::in_quad() {
     const std::array delay = {elapsed<Quad>(first_.record.time, begin),
                               elapsed<Quad>(second_.record.time, begin)};
     const auto flight = [&](const Needle& needle, std::size_t i) {
-      return without_gravity(Flight<Ball<Quad>>(needle.record), space_.gravity, delay[i]);
+      return without_gravity(needle.flight_as<Ball<Quad>>(), space_.gravity, delay[i]);
     };
     precise_.emplace(Precise{flight(first_, 0), flight(second_, 1), delay});
   }

@@ -23,7 +23,11 @@ struct AuditedBody {
   std::size_t species = 0;  ///< index
   double length = 1, mass = 1, k = 6;
   double diameter = 0;  ///< 0 of thin needles
+  double q = 0;         ///< 4 I / (m D^2) of rough spheres
 
+  bool has_axis() const { return length > 0; }
+  /// Over so many components of the spin a rotational temperature is.
+  int rotations() const { return has_axis() ? 2 : 3; }
   /// Its mass in sums over all that move: 0 of fixed ones, whose mass is infinite.
   double moving_mass() const { return std::isinf(mass) ? 0 : mass; }
   double extent() const { return length + diameter; }  ///< from end to end [L]
@@ -33,24 +37,38 @@ struct AuditedBody {
     out.length *= scale;
     out.diameter *= scale;
     out.k *= scale * scale;
+    out.q /= scale * scale;
     return out;
   }
   template <class Real>
   Real inverse_mass() const {
     return std::isinf(mass) ? Real(0) : 1 / Real(mass);
   }
-  /// I = m L^2 / (2 k); spheres, whose length is 0, do not turn.
+  /// I / m = L^2 / (2 k), or q D^2 / 4 of spheres, whose length is 0; 0 of smooth ones.
+  template <class Real>
+  Real inertia_per_mass() const {
+    return has_axis() ? Real(length) * length / (2 * Real(k)) : Real(q) * diameter * diameter / 4;
+  }
   template <class Real>
   Real inverse_inertia() const {
-    if (length == 0 || std::isinf(mass)) return Real(0);
-    return 2 * Real(k) / Real(mass) / (Real(length) * length);
+    const Real per_mass = inertia_per_mass<Real>();
+    return per_mass == 0 || std::isinf(mass) ? Real(0) : 1 / (Real(mass) * per_mass);
   }
 };
 
 /// A needle's record, and its flight prepared for double.
 struct Needle {
   explicit Needle(const Record& given, const AuditedBody& made_of = {})
-      : record(given), flight(given), body(made_of) {}
+      : record(given), flight(given, made_of.has_axis()), body(made_of) {}
+  template <class T>
+  Flight<T> flight_as() const {
+    return Flight<T>(record, body.has_axis());
+  }
+  /// Its angular velocity in this pose. All of a sphere's is that of its record.
+  template <class T>
+  Vector<T> spin(const Pose<T>& pose) const {
+    return body.has_axis() ? cross(pose.u, pose.du) : to<T>(record.w);
+  }
   Record record;
   Flight<Ball<double>> flight;
   AuditedBody body;

@@ -124,7 +124,7 @@ RodFlight::Motion<Real> RodFlight::motion() const {
     if constexpr (std::is_same_v<Real, double>) {
       return without_gravity(needle.flight, space_.gravity, delay[i]);
     } else {
-      return without_gravity(Flight<Ball<Real>>(needle.record), space_.gravity, delay[i]);
+      return without_gravity(needle.flight_as<Ball<Real>>(), space_.gravity, delay[i]);
     }
   };
   const std::array flights = {flight(first_, 0), flight(second_, 1)};

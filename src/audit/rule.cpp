@@ -42,13 +42,13 @@ struct Partner {
   bool worn;                              ///< in contact, of which each step makes a new record
 
   Partner(const Needle& needle, const Instant& now, const Vector<double>& gravity) {
-    const Flight<Number> flight(needle.record);
+    const auto flight = needle.flight_as<Number>();
     const Number age = elapsed<Quad>(needle.record.time, now);
     const Pose<Number> pose = flight.at(age);
     r = middle(pose.r);
     u = middle(pose.u);
     v = middle(flight.v);
-    w = middle(cross(pose.u, pose.du));
+    w = middle(needle.spin(pose));
     for (int axis = 0; axis < 3; ++axis) {
       const Quad gained = Quad(gravity[axis]) * age.middle;
       v[axis] += gained;
@@ -87,6 +87,12 @@ Contact contact_of_needles(const Partner& a, const Partner& b, const Vector3& r,
   out.share = out.geometry / shortest;
   return out;
 }
+
+/// From a body's centre to the contact: so far along this direction.
+struct Lever {
+  Vector3 along;
+  Quad arm;
+};
 
 /// Of nearly parallel rods, rounding decides which points are nearest; those of the report are,
 /// where the distance grows from them in both directions, or on from the ends. All else follows
@@ -150,7 +156,16 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
                                                     std::min(bodies[0].length, bodies[1].length));
   const auto& [s12, s21, n, geometry, share] = contact;
   const Quad sine = norm(cross(a.u, b.u));
-  const Vector3 velocity = a.v - b.v - past + cross(a.w, a.u) * s12 - cross(b.w, b.u) * s21;
+  const bool spheres = wide && !bodies[0].has_axis() && !bodies[1].has_axis();
+  const bool smooth = wide && !(spheres && rule.beta != -1);
+  std::array<Lever, 2> levers = {Lever{a.u, s12}, Lever{b.u, s21}};
+  if (spheres) {
+    const Quad half = 0.5;
+    levers = {Lever{n, -half * bodies[0].diameter}, Lever{n, half * bodies[1].diameter}};
+  }
+  const auto& [first_lever, second_lever] = levers;
+  const Vector3 velocity = a.v - b.v - past + cross(a.w, first_lever.along) * first_lever.arm -
+                           cross(b.w, second_lever.along) * second_lever.arm;
   // How fast growth brings the surfaces together: by what the distance of the centres along the
   // normal, at contact, grows.
   Quad closing = 0;
@@ -162,19 +177,23 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
   const Quad approach = dot(velocity, n) - closing;
   const Quad vn = (wide && approach > 0 ? Quad(0) : approach) + closing;
   const Quad epsilon = collision.contact_time_rule ? 1 : rule.epsilon;
-  const Quad beta = collision.contact_time_rule ? -1 : rule.beta;
+  // The roughness of spheres stays within the contact time.
+  const Quad beta = collision.contact_time_rule && !spheres ? -1 : rule.beta;
 
   // M = (1/m1 + 1/m2) 1 + (s12^2/I1)(1 - u1 u1) + (s21^2/I2)(1 - u2 u2), and the right-hand side.
+  // Of spheres, n and their radii are in the place of directors and arms.
   std::array<Quad, 2> inverse_mass, inverse_inertia;
   for (int i = 0; i < 2; ++i) {
     inverse_mass[i] = bodies[i].inverse_mass<Quad>();
     inverse_inertia[i] = bodies[i].inverse_inertia<Quad>();
   }
   const Quad masses = inverse_mass[0] + inverse_mass[1];
-  const Quad c1 = inverse_inertia[0] * s12 * s12, c2 = inverse_inertia[1] * s21 * s21;
+  const Quad c1 = inverse_inertia[0] * first_lever.arm * first_lever.arm,
+             c2 = inverse_inertia[1] * second_lever.arm * second_lever.arm;
   std::array<Vector3, 3> mass;
   for (int i = 0; i < 3; ++i) {
-    mass[i] = a.u * Quad(-c1 * a.u[i]) - b.u * Quad(c2 * b.u[i]);
+    mass[i] = first_lever.along * Quad(-c1 * first_lever.along[i]) -
+              second_lever.along * Quad(c2 * second_lever.along[i]);
     mass[i][i] += masses + c1 + c2;
   }
   const Vector3 tangential = velocity - n * vn;
@@ -183,22 +202,29 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
     return mass[0] * p[0] + mass[1] * p[1] + mass[2] * p[2];
   };
   const Vector3 impulse =
-      wide ? n * Quad((1 + epsilon) * (closing - vn) / dot(n, mass_times(n)))
-           : solve(mass, n * Quad(-(1 + epsilon) * vn) - tangential * Quad(1 + beta));
-  const Vector3 turn_first = cross(a.u, impulse) * Quad(inverse_inertia[0] * s12);
-  const Vector3 turn_second = cross(b.u, impulse) * Quad(inverse_inertia[1] * s21);
+      smooth ? n * Quad((1 + epsilon) * (closing - vn) / dot(n, mass_times(n)))
+             : solve(mass, n * Quad((1 + epsilon) * (closing - vn)) - tangential * Quad(1 + beta));
+  const Vector3 turn_first =
+      cross(first_lever.along, impulse) * Quad(inverse_inertia[0] * first_lever.arm);
+  const Vector3 turn_second =
+      cross(second_lever.along, impulse) * Quad(inverse_inertia[1] * second_lever.arm);
 
-  const double speed =
-      a.fastest + b.fastest +
-      magnitude(Quad(norm(a.w) * bodies[0].length + norm(b.w) * bodies[1].length)) +
-      magnitude(closing);
+  const auto span = [](const AuditedBody& body) {
+    return body.has_axis() ? body.length : body.diameter;
+  };
+  const double speed = a.fastest + b.fastest +
+                       magnitude(Quad(norm(a.w) * span(bodies[0]) + norm(b.w) * span(bodies[1]))) +
+                       magnitude(closing);
   const bool hardly_parts = magnitude(Quad(epsilon * vn)) < rule.parting * speed;
   const double grown = space.growth ? space.growth->off_rate(scale) * magnitude(closing) : 0;
   const double off = share * speed + grown,
                off_after = off + (hardly_parts ? 4 * rule.parting : 0) * speed;
   // Twice the ratio of the largest and the smallest M, which has its tips.
   const auto at_tip = [&](int i) {
-    return bodies[i].length > 0 ? bodies[i].k / 2 * magnitude(inverse_mass[i]) : 0.0;
+    const double shape = bodies[i].has_axis() ? bodies[i].k / 2
+                         : bodies[i].q > 0    ? 1 / bodies[i].q
+                                              : 0;
+    return shape * magnitude(inverse_mass[i]);
   };
   const double least_mass = magnitude(masses);
   const double stiffness = 2 * (least_mass + at_tip(0) + at_tip(1)) / least_mass;
@@ -237,7 +263,9 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
     const double kicked = std::max(1.0, push * magnitude(inverse_mass[i]));
     excess.add(difference(v_after[i] - wrapped, after.velocity), kicked * stiffness * off_after);
     const AuditedBody& body = bodies[i];
-    const double turning = body.length > 0 ? body.k / body.length : 0;
+    const double turning = body.has_axis() ? body.k / body.length
+                           : body.q > 0    ? 2 / (body.q * body.diameter)
+                                           : 0;
     excess.add(difference(w_after[i], after.angular_velocity),
                (2 / body.extent() + turning) * kicked * stiffness * off_after);
   }

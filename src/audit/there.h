@@ -12,10 +12,10 @@ struct There {
   double flown, turned;  ///< distance, and angle
 
   There(const Needle& needle, const Vector<double>& gravity, const Instant& now) {
-    const Flight<Ball<Quad>> flight(needle.record);
+    const auto flight = needle.flight_as<Ball<Quad>>();
     const Ball<Quad> age = elapsed<Quad>(needle.record.time, now);
     const Pose<Ball<Quad>> pose = flight.at(age);
-    const Vector<Ball<Quad>> spin = cross(pose.u, pose.du);
+    const Vector<Ball<Quad>> spin = needle.spin(pose);
     const Quad t = age.middle;
     for (int axis = 0; axis < 3; ++axis) {
       const Quad g = gravity[axis];

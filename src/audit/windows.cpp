@@ -11,25 +11,24 @@ namespace needlework::audit {
 std::vector<Temperatures> temperatures_of(std::span<const Needle> needles,
                                           std::span<const AuditedBody> bodies) {
   struct Squares {
-    long double count = 0, v2 = 0, w2 = 0;  // weighted by m, and by m L^2 / k
+    long double count = 0, v2 = 0, w2 = 0;  // weighted by m, and by I
   };
   std::vector<Squares> sums(bodies.size());
   for (const Needle& needle : needles) {
     const auto v = to<long double>(needle.record.v), w = to<long double>(needle.record.w);
     Squares& sum = sums[needle.body.species];
     ++sum.count;
-    const long double mass = needle.body.moving_mass(), length = needle.body.length,
-                      k = needle.body.k;
+    const long double mass = needle.body.moving_mass();
     sum.v2 += mass * dot(v, v);
-    sum.w2 += mass * length * length / k * dot(w, w);
+    sum.w2 += mass * needle.body.inertia_per_mass<long double>() * dot(w, w);
   }
   std::vector<Temperatures> out(bodies.size());
   for (std::size_t n = 0; n < out.size(); ++n) {
     const Squares& sum = sums[n];
     if (sum.count == 0) continue;
-    // m <v^2> = 3 T_tr and I <w^2> = 2 T_rot with I = m L^2 / (2 k).
+    // m <v^2> = 3 T_tr and I <w^2> = 2 T_rot, 3 T_rot of rough spheres.
     out[n] = {static_cast<double>(sum.count), static_cast<double>(sum.v2 / (3 * sum.count)),
-              static_cast<double>(sum.w2 / (4 * sum.count))};
+              static_cast<double>(sum.w2 / (bodies[n].rotations() * sum.count))};
   }
   return out;
 }
@@ -38,9 +37,8 @@ double energy_of(std::span<const Needle> needles) {
   long double sum = 0;
   for (const Needle& needle : needles) {
     const auto v = to<long double>(needle.record.v), w = to<long double>(needle.record.w);
-    const long double length = needle.body.length;
     sum += needle.body.moving_mass() *
-           (dot(v, v) + length * length / (2 * needle.body.k) * dot(w, w)) / 2;
+           (dot(v, v) + needle.body.inertia_per_mass<long double>() * dot(w, w)) / 2;
   }
   return static_cast<double>(sum);
 }
@@ -73,7 +71,10 @@ double mean_sigma(const Temperatures& gas_a, const AuditedBody& a, Touches part_
                   const Temperatures& gas_b, const AuditedBody& b, Touches part_b) {
   const double flight = gas_a.t_tr / a.mass + gas_b.t_tr / b.mass;
   // T_rot s^2 / I with s = L x.
-  const double turn_a = 2 * a.k * gas_a.t_rot / a.mass, turn_b = 2 * b.k * gas_b.t_rot / b.mass;
+  const auto turn = [](const Temperatures& gas, const AuditedBody& body) {
+    return body.has_axis() ? 2 * body.k * gas.t_rot / body.mass : 0;
+  };
+  const double turn_a = turn(gas_a, a), turn_b = turn(gas_b, b);
   const auto over_first = [&](double t) {
     // Of an end 1 - mu = t^2, so that small arms are at small t.
     const double x = t * t / 2, y = t * t;

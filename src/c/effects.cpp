@@ -3,6 +3,7 @@
 
 #include "src/c/handle.h"
 #include "src/c/numbers.h"
+#include "src/runs/rod_totals.h"
 
 using namespace needlework;
 
@@ -33,6 +34,16 @@ int needlework_get_contacts(needlework_simulation* simulation, needlework_contac
     c::require(contacts, "contacts");
     const auto counted = self.run.simulation().sliding_contacts();
     c::copy_numbers(counted.value_or(SlidingContacts{}), *contacts, &needlework_contacts::entered);
+  });
+}
+
+int needlework_get_growth(needlework_simulation* simulation, needlework_growth* growth) {
+  return c::guarded(simulation, [&](needlework_simulation& self) {
+    c::require(growth, "growth");
+    const Simulation& source = self.run.simulation();
+    GrowthTotals at_rest;
+    at_rest.packing_fraction = runs::rod_totals(self.run.scene(), source).packing_fraction;
+    c::copy_numbers(source.growth().value_or(at_rest), *growth, &needlework_growth::scale);
   });
 }
 

@@ -273,11 +273,17 @@ std::string driving_lines(const runs::Explanation& e) {
   }
   if (growth) {
     const GrowthPlan plan = growth_plan(e.scene, e.scene.composition(), e.scene.needles.box);
-    text +=
-        line("driving",
-             fmt::format("all bodies grow, by a rate of {:g}, to at most {:.6g} of their sizes{}",
-                         growth->rate, plan.largest,
-                         plan.end == Stop::no_room ? ", as the box has no room for more" : ""));
+    std::string end;
+    const auto add = [&](const std::string& limit) { end += (end.empty() ? "" : " or ") + limit; };
+    if (growth->until_packing)
+      add(fmt::format("a packing fraction of {:g}", *growth->until_packing));
+    if (growth->until_pressure) add(fmt::format("P V / (N T) = {:g}", *growth->until_pressure));
+    if (end.empty()) end = "they jam";
+    text += line("driving",
+                 fmt::format("all bodies grow, by a rate of {:g}, until {}, to at most {:.6g} of "
+                             "their sizes{}",
+                             growth->rate, end, plan.largest,
+                             plan.end == Stop::no_room ? ", as the box has no room for more" : ""));
   }
   return text;
 }
@@ -372,7 +378,11 @@ Json driving_json(const runs::Explanation& e) {
   }
   if (const auto& growth = e.scene.driving.growth) {
     const GrowthPlan plan = growth_plan(e.scene, e.scene.composition(), e.scene.needles.box);
-    out["growth"] = {{"rate", growth->rate}, {"largest", plan.largest}};
+    out["growth"] = {{"rate", growth->rate},
+                     {"until_packing", optional_number(growth->until_packing)},
+                     {"until_pressure", optional_number(growth->until_pressure)},
+                     {"largest", plan.largest},
+                     {"largest_by", name_of(plan.end)}};
   }
   return out;
 }

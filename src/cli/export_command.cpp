@@ -39,13 +39,13 @@ io::Material read_material(const std::string& path, const io::ExportFormat& form
 
 // What DynamO does otherwise than the file that is exported to it.
 void warn_of_other_motion(const io::Material& material, const std::string& path) {
-  // Spheres are those of DynamO, and so are their walls.
-  if (io::has_width(material)) return;
   const auto rough = std::ranges::find_if(material.beta, [](double beta) { return beta != -1; });
   if (rough != material.beta.end()) {
-    print_warning(
-        fmt::format("{}: beta = {} is left out: lines of DynamO are smooth", path, *rough));
+    print_warning(fmt::format("{}: beta = {} is left out: {} of DynamO are smooth", path, *rough,
+                              io::has_width(material) ? "spheres" : "lines"));
   }
+  // Spheres are those of DynamO, and so are their walls.
+  if (io::has_width(material)) return;
   if (io::differ_in_inertia(material)) {
     print_warning(
         fmt::format("{}: species differ in mass or moment of inertia: DynamO takes both numbers of "

@@ -51,6 +51,15 @@ std::optional<double> pressure_of_fluid(const MixturePredictions& p) {
          theory::sphere_compressibility(p.composition, p.volume());
 }
 
+// Of one kind, which tend to a ratio of temperatures.
+bool are_rough_spheres(const MixturePredictions& p) {
+  return p.composition.size() == 1 && p.composition.are_spheres() && p.composition[0].turns();
+}
+
+double asymptotic_ratio(const MixturePredictions& p) {
+  return theory::asymptotic_ratio_of_spheres(p.composition[0].q, p.composition.restitution(0, 0));
+}
+
 Json virial_json(const MixturePredictions& p) {
   const auto pressure = pressure_of(p);
   Json out{{"packing_fraction", number(p.composition.packing_fraction(p.volume()))},
@@ -117,6 +126,7 @@ Json json_of(const MixturePredictions& p) {
                      {"t_rot", each_of(p.curve, [&](const auto& each) { return each[n].t_rot; })}};
                })}};
   if (has_pressure(p)) out["rods"] = virial_json(p);
+  if (are_rough_spheres(p)) out["c"] = number(asymptotic_ratio(p));
   return out;
 }
 
@@ -140,6 +150,8 @@ std::string mixture_table(const MixturePredictions& p) {
                     p.initial[n].t_rot, p.rates.temperatures[n].t_rot);
   }
   text += virial_line(p);
+  if (are_rough_spheres(p) && p.composition.is_inelastic())
+    text += fmt::format("  T_tr/T_rot tends to c = {:.10g}\n", asymptotic_ratio(p));
   if (p.times.empty()) return text;
   text += fmt::format("\n{:>12}  {:>16}", "time", "energy");
   for (const Species& each : p.composition.species()) {

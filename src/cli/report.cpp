@@ -154,6 +154,7 @@ std::string json_of(const Report& report) {
   if (!scene.walls.empty()) json::add_walls(json, simulation);
   if (acts_on_single_needles(scene)) json::add_energy_budget(json, simulation);
   json::add_contacts(json, simulation);
+  json::add_growth(json, simulation);
   json::add_stress(json, simulation);
   json["theory"] = nullptr;
   if (const auto theory = report.theory_at(last)) {

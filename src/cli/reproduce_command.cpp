@@ -17,7 +17,7 @@ const std::vector<Group>& groups() {
   static const std::vector<Group> all{
       {"of the paper", {"2", "3", "4", "5a", "5b", "6", "7", "8"}},
       {"of its text", {"fluctuations", "moment", "rotation", "relaxation"}},
-      {"rough needles", {"rough"}},
+      {"rough bodies", {"rough", "rough-spheres"}},
       {"larger systems", {"sizes", "dense-large", "dense-film", "clusters"}},
       {"why they differ", {"cells", "tc-dilute", "tc-dense", "sliding-dilute", "sliding-dense"}},
       {"why theory is off",

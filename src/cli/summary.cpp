@@ -101,7 +101,7 @@ std::string energy_lines(const Report& report) {
                  report.simulation.composition().has_fixed() ? " that moves" : "",
                  last.energy / first.energy - 1);
   }
-  if (report.simulation.composition().are_spheres())
+  if (report.simulation.composition().turning_share() == 0)
     return text + line("temperatures", "T_tr = {:.4g}", last.t_tr);
   text += line("temperatures", "T_tr = {:.4g}, T_rot = {:.4g}, T_tr/T_rot = {:.4f}", last.t_tr,
                last.t_rot, last.t_tr / last.t_rot);
@@ -164,7 +164,7 @@ std::string temperature_lines(const Report& report) {
   for (const std::size_t n : shown) {
     const bool turns = composition[n].turns();
     text += line(text.empty() ? "species" : "", "{}: {} {}, {}", composition[n].name, counts[n],
-                 turns ? "needles" : "spheres",
+                 composition[n].has_axis() ? "needles" : "spheres",
                  composition[n].fixed
                      ? "fixed"
                      : fmt::format("T_tr = {:.4g}{}", totals[n].t_tr,
@@ -434,6 +434,8 @@ std::string summary_of(const Report& report) {
   if (const auto contacts = report.simulation.sliding_contacts()) {
     text += line("contacts", "{}", numbers_text(*contacts));
   }
+  if (const auto growth = report.simulation.growth())
+    text += line("growth", "{}", numbers_text(*growth));
   if (const auto stress = report.simulation.stress()) text += stress_lines(*stress);
   text += rod_line(report);
   text += wall_lines(report);

@@ -102,7 +102,7 @@ bool Composition::is_partly_thin() const {
 
 bool Composition::are_spheres() const {
   bool out = true;
-  for_each_present(species_, [&](std::size_t n) { out = out && !species_[n].turns(); });
+  for_each_present(species_, [&](std::size_t n) { out = out && !species_[n].has_axis(); });
   return out;
 }
 
@@ -111,10 +111,12 @@ bool Composition::has_own_sizes() const {
 }
 
 double Composition::turning_share() const {
-  std::uint64_t turning = 0;
-  for (const Species& each : species_) turning += each.turns() && !each.fixed ? each.count : 0;
+  double half = 0;
+  for (const Species& each : species_) {
+    if (!each.fixed) half += 0.5 * each.rotations() * static_cast<double>(each.count);
+  }
   const std::uint64_t all = count() - fixed();
-  return all > 0 ? static_cast<double>(turning) / static_cast<double>(all) : 1;
+  return all > 0 ? half / static_cast<double>(all) : 1;
 }
 
 double Composition::packing_fraction(double volume) const {

@@ -15,10 +15,19 @@ struct BodyNumbers {
   double length = 1;          ///< of the axis [L]
   double diameter = 0;        ///< [L]
   double mass = 1;            ///< [m]
-  double inertia = 1.0 / 12;  ///< 0 for spheres [m L^2]
+  double inertia = 1.0 / 12;  ///< 0 for smooth spheres [m L^2]
 
   friend bool operator==(const BodyNumbers&, const BodyNumbers&) = default;
 };
+
+/// 4 I / (m D^2) of a sphere.
+inline double q_of(double mass, double diameter, double inertia) {
+  return 4 * inertia / (mass * (diameter * diameter));
+}
+/// The moment of inertia of a sphere. [m L^2]
+inline double inertia_of(double q, double mass, double diameter) {
+  return Species{.length = 0, .mass = mass, .diameter = diameter, .q = q}.inertia();
+}
 
 /// Adds up one number of bodies, none of them below 0.
 class SpreadSums {
@@ -83,8 +92,10 @@ class SizesOfBodies {
     species.length = sizes.length.mean;
     species.diameter = sizes.diameter.mean;
     species.mass = sizes.mass.mean;
-    if (species.turns())
+    if (species.has_axis())
       species.k = species.mass * (species.length * species.length) / (2 * sizes.inertia.mean);
+    else
+      species.q = q_of(species.mass, species.diameter, sizes.inertia.mean);
     species.given_inertia.reset();
     species.sizes = sizes;
     return species;

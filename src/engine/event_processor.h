@@ -209,7 +209,8 @@ EventProcessor<S, M>::pair_event(const Event& event) {
   if constexpr (M::Law::has_distance) {
     // The centres are as far apart along the normal as both bodies reach from them: never below 0.
     // A contact without velocity has an impulse of -0.
-    const double distance = pair.distance * (1 + pair.growth * elapsed.hi);
+    double distance = pair.distance;
+    if (gas_.growth) distance *= 1 + pair.growth * elapsed.hi;
     const double apart = distance - contact.arm_first * dot(contact.u_first, contact.normal) +
                          contact.arm_second * dot(contact.u_second, contact.normal);
     out.virial = std::max(0.0, dot(out.outcome.impulse, contact.normal) * apart);
@@ -283,8 +284,7 @@ template <Search S, Model M>
                                                                Needle b) {
   tally_.energy += run_.energy.in_quanta(event.outcome.energy_change);
   if constexpr (M::Law::has_distance) {
-    if (event.outcome.growth_work != 0)
-      tally_.growth += run_.energy.in_quanta(event.outcome.growth_work);
+    if (gas_.growth) tally_.growth += run_.energy.in_quanta(event.outcome.growth_work);
   }
   if (!event.outcome.collides) return;
   ++tally_.collisions;
@@ -418,7 +418,7 @@ template <Search S, Model M>
   best.time = std::min(
       {placed_until, gas_.records[i].renewal, gas_.clock.add(time, run_.windows.search_span())});
   if constexpr (M::has_effects) {
-    best.time = std::min(best.time, run_.search_until());
+    if (run_.kicks || run_.growing) best.time = std::min(best.time, run_.search_until());
     consider_sources(i, best);
   }
   search_.find({i, just_hit, time, gas_.clock.difference(best.time, time)}, model_,

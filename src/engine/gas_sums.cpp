@@ -163,23 +163,28 @@ std::vector<SpeciesTotals> species_totals(const Gas& gas, const std::vector<Sums
     if (of.count == 0 || species.fixed) continue;
     const double count = static_cast<double>(species.count);
     of.t_tr = species.mass * sums[index].v2 / (3 * count);
-    if (!species.turns()) continue;
-    of.t_rot =
-        species.mass * (species.length * species.length) * sums[index].w2 / (4 * species.k * count);
+    if (species.has_axis())
+      of.t_rot = species.mass * (species.length * species.length) * sums[index].w2 /
+                 (4 * species.k * count);
+    else if (species.turns())
+      of.t_rot = species.inertia() * sums[index].w2 / (3 * count);
   }
   return out;
 }
 
 namespace {
 
-// Means over all needles that move; T_rot of those that turn. Fixed ones have temperatures of 0.
+// Means over all needles that move; T_rot over their rotational degrees of freedom. Fixed ones have
+// temperatures of 0.
 void set_temperatures(const Gas& gas, const std::vector<SumsOfSquares>& sums, Totals& out) {
   if (gas.moving() == 0) return;
   out.t_tr = out.t_rot = 0;
-  for (const SpeciesTotals& of : species_totals(gas, sums)) {
+  const std::vector<SpeciesTotals> totals = species_totals(gas, sums);
+  for (std::size_t index = 0; index < totals.size(); ++index) {
+    const SpeciesTotals& of = totals[index];
     const double share = static_cast<double>(of.count) / static_cast<double>(gas.moving());
     out.t_tr += share * of.t_tr;
-    out.t_rot += share * of.t_rot;
+    out.t_rot += 0.5 * gas.composition[index].rotations() * (share * of.t_rot);
   }
   const double turning = gas.composition.turning_share();
   if (turning > 0) out.t_rot /= turning;
@@ -281,9 +286,8 @@ GasNumbers numbers_of(const Gas& gas, const std::vector<SumsOfSquares>& sums, bo
   for (std::size_t index = 0; index < sums.size(); ++index) {
     const Species& species = gas.composition[index];
     if (species.fixed) continue;
-    out.species.push_back({.length = species.length,
-                           .mass = species.mass,
-                           .k = species.k,
+    out.species.push_back({.mass = species.mass,
+                           .inertia = species.inertia(),
                            .v2 = sums[index].v2,
                            .w2 = sums[index].w2,
                            .extent = species.extent()});

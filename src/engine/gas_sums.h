@@ -12,7 +12,7 @@ namespace needlework {
 
 /// How much a needle counts in the sums of its species: its mass and moment of inertia over those
 /// of the species. Both are exactly 1 where its body is that of the species, so that weighted sums
-/// have the bits of plain ones; of spheres, which do not turn, the second is 1.
+/// have the bits of plain ones; of smooth spheres, which do not turn, the second is 1.
 struct Weight {
   double mass = 1, inertia = 1;
 };

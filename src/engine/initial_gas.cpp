@@ -70,7 +70,7 @@ void require_same_bodies(const Composition& composition, const Bodies& bodies) {
       const double given = composition[n].*value;
       const Species& its = composition[n];
       const bool is_fixed = its.fixed && std::isinf(expected[n]) && value == &Species::mass;
-      const bool counts = (its.turns() || value != &Species::k) && !its.sizes && !is_fixed;
+      const bool counts = (its.has_axis() || value != &Species::k) && !its.sizes && !is_fixed;
       if (!counts || std::abs(given - expected[n]) <= 1e-12 * expected[n]) continue;
       throw InputError(fmt::format("state: bodies of {} = {}: expected {}, as in the scene", key,
                                    expected[n], given));
@@ -218,7 +218,7 @@ void require_steady_flow(const Gas& gas) {
       sum, sum / total_mass(gas.composition)));
 }
 
-// That no two rods overlap but by rounding, and that spheres do not turn.
+// That no two rods overlap but by rounding, and that smooth spheres do not turn.
 void require_room_for_rods(const Gas& gas) {
   if (!gas.composition.has_width()) return;
   std::vector<RodShape> shapes;
@@ -232,7 +232,7 @@ void require_room_for_rods(const Gas& gas) {
     const Record& record = gas.records[i];
     if (!gas.body(i).turns() && !(record.flight.w == Vec3d{})) {
       refuse_vector(record.flight.w, "angular velocity", gas.ids[i],
-                    "0, as a sphere does not turn");
+                    "0, as a smooth sphere does not turn");
     }
     const std::array<double, 3> centre = to_array(record.flight.r),
                                 director = to_array(record.flight.u);

@@ -64,7 +64,6 @@ std::optional<Stop> StopConditions::reached_without_events(Run& run) const {
 }
 
 std::optional<Stop> StopConditions::called_off(Run& run) const {
-  if (run.gas.moving_edges && run.effects.width && run.is_jammed()) return Stop::jammed;
   if (run.interrupted) return Stop::interrupted;
   if (wall != wall.max() && std::chrono::steady_clock::now() >= wall) return Stop::wall_time;
   if (time == Time::never() && run.is_quiet()) return Stop::nothing_can_happen;

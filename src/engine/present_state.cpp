@@ -14,11 +14,11 @@
 
 namespace needlework {
 
-void copy_own_bodies(const Gas& gas, Time at, const std::vector<Needle>& order, OwnBodies& own) {
+void copy_own_bodies(const Gas& gas, double scale, const std::vector<Needle>& order,
+                     OwnBodies& own) {
   const std::size_t rows = gas.has_own_bodies() || gas.growth ? order.size() : 0;
   for (std::vector<double>* column : {&own.length, &own.diameter, &own.mass, &own.inertia})
     column->resize(rows);
-  const double scale = gas.scale_at(at);
   for (std::size_t row = 0; row < rows; ++row) {
     const Body body = gas.body(order[row]);
     own.length[row] = scale * body.length();
@@ -41,7 +41,7 @@ void copy_state(const Gas& gas, Time at, kernels::Isa isa, const std::vector<Nee
   out.peculiar_velocity.resize(gas.shear ? gas.size() : 0);
   out.peculiar_x.resize(gas.peculiar_x ? gas.size() : 0);
   out.species.resize(gas.composition.is_mixture() ? gas.size() : 0);
-  copy_own_bodies(gas, at, order, out.own_bodies);
+  copy_own_bodies(gas, gas.scale_at(at), order, out.own_bodies);
   // Few enough for the columns to stay in the first-level cache.
   constexpr std::size_t at_once = 64;
   static_assert(at_once % kernels::flights_at_once == 0);

@@ -14,8 +14,10 @@ namespace needlework {
 /// affects no bit of the result.
 void copy_state(const Gas& gas, Time at, kernels::Isa isa, const std::vector<Needle>& order,
                 State& out);
-/// Their numbers, where the needles of a species differ or bodies grow; otherwise all empty.
-void copy_own_bodies(const Gas& gas, Time at, const std::vector<Needle>& order, OwnBodies& out);
+/// Their numbers at these sizes, where the needles of a species differ or bodies grow; otherwise
+/// all empty.
+void copy_own_bodies(const Gas& gas, double scale, const std::vector<Needle>& order,
+                     OwnBodies& out);
 /// One needle. Throws InputError for an id that does not exist.
 FreeNeedle needle_at(const Gas& gas, Time at, Id id);
 /// Throws InvalidStateError if needles that fly freely until then have crossed more boxes than are

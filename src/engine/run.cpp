@@ -28,7 +28,7 @@ namespace needlework {
 namespace {
 
 bool is_at_rest(const Record& record) {
-  return record.flight.v == Vec3d{} && record.flight.w == Vec3d{};
+  return record.flight.v == Vec3d{} && record.flight.omega == 0;
 }
 
 // The walls in the order in which reports count them.
@@ -215,7 +215,7 @@ Run::Run(const Scene& scene, Gas initial) : Run(scene) {
     StopRequest::check_in_turn(i);
     const kernels::Flight flight = gas.records[i].flight;
     renew_record(gas, i, now, {gas.motion(gas.records[i]).centre(0), flight.v, flight.u, flight.w},
-                 gas.body(i).extent());
+                 gas.body(i));
   }
   open_window();
   initial_energy = present_energy();
@@ -415,9 +415,8 @@ ReplacedRecords Run::replace_velocities(const std::function<Vec3d(Needle)>& velo
     const kernels::BodyState present = gas.present(i, now);
     if (effects.stress) count(flight_carries(gas, i, now), tally);
     if (gas.peculiar_x) (*gas.peculiar_x)[i] += gas.way_beside_flow(i, now);
-    entry.wraps =
-        renew_record(gas, i, now, {present.r, velocity(i), present.u, angular_velocity(i)},
-                     gas.body(i).extent());
+    entry.wraps = renew_record(
+        gas, i, now, {present.r, velocity(i), present.u, angular_velocity(i)}, gas.body(i));
   }
   open_window();
   return replaced;
@@ -460,8 +459,7 @@ ReplacedRecords Run::kick() {
   kernels::in_parallel(gas.size(), team.threads(), [&](std::size_t begin, std::size_t end) {
     for (Needle i(begin); i < end; ++i) {
       if (gas.is_fixed(i)) continue;
-      changes[i] = kicks->change(gas.ids[i], number, gas.present(i, now).u);
-      if (!gas.body(i).turns()) changes[i].angular_velocity = {};
+      changes[i] = kicks->change(gas.ids[i], number, gas.body(i), gas.present(i, now).u);
     }
   });
   // Fixed bodies take up any momentum, so that the sum is not kept.
@@ -513,25 +511,31 @@ ReplacedRecords Run::cool() {
   return replaced;
 }
 
+double Run::next_look_for_jam() const {
+  constexpr double collisions_of_a_body = 8;
+  if (!gas.moving_edges || !effects.width) return std::numeric_limits<double>::infinity();
+  return static_cast<double>(looked_for_jam_.collisions) +
+         collisions_of_a_body * static_cast<double>(gas.moving());
+}
+
 bool Run::is_jammed() {
   // Elastic bodies grow ever faster. Where times of contacts round by so much of what overlaps may
   // be, they have been seen to overlap by more from 4 on.
-  constexpr double most_rounded = 0.25, most_moved = 1e-6, most_flown = 0.1;
+  constexpr double most_rounded = 0.25, most_moved = 1e-6, most_flown = 0.1, long_look = 512;
+  const JamLook before = std::exchange(looked_for_jam_, {now, tally.collisions});
   const double speed = gas.moving_edges->speed(gas.clock.exact_difference(now, {}));
-  if (!(speed > 0)) return false;
   const double thermal = std::sqrt(2 * std::max(0.0, present_energy()) / gas.mass());
+  const auto has_moved_little = [&](const JamLook& since, double walls) {
+    const double elapsed = gas.clock.difference(now, since.time);
+    return thermal * elapsed <= most_flown * gas.longest && speed * elapsed <= walls * gas.longest;
+  };
   const bool is_rounded = thermal * gas.clock.resolution() > most_rounded * gas.touch_tolerance();
-  std::uint64_t events = tally.collisions;
-  for (const SourceTally& source : tally.by_source) events += source.events;
-  const double events_of_a_body = is_rounded ? 16 : 1e3;
-  if (static_cast<double>(events - events_then_) <
-      events_of_a_body * static_cast<double>(gas.moving()))
+  if (speed > 0 && is_rounded && has_moved_little(before, 1)) return true;
+  if (static_cast<double>(tally.collisions - looked_long_for_jam_.collisions) <
+      long_look * static_cast<double>(gas.moving()))
     return false;
-  const double elapsed = gas.clock.difference(now, looked_for_jam_);
-  events_then_ = events;
-  looked_for_jam_ = now;
-  return thermal * elapsed <= most_flown * gas.longest &&
-         (is_rounded || speed * elapsed <= most_moved * gas.longest);
+  const JamLook long_before = std::exchange(looked_long_for_jam_, looked_for_jam_);
+  return speed > 0 && has_moved_little(long_before, most_moved);
 }
 
 bool Run::nothing_can_happen() const {
@@ -555,7 +559,8 @@ std::optional<Collisionless> Run::collisionless() const {
   if ((gas.shear || gas.growth) && gas.size() > 1) return std::nullopt;
   const auto state_of = [&](std::size_t i) {
     const kernels::Flight& flight = gas.records[i].flight;
-    return kernels::BodyState{flight.r, flight.v, flight.u, flight.w};
+    // Spheres do not meet by turning.
+    return kernels::BodyState{flight.r, flight.v, flight.u, flight.omega > 0 ? flight.w : Vec3d{}};
   };
   // Of width, only those touch nothing that have no motion relative to each other. Spheres that
   // have begun on a lattice have equal directors, so that to look for other reasons would take

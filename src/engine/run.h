@@ -67,10 +67,12 @@ class Run {
   bool nothing_can_happen() const;
   /// Why no two needles can ever collide, as the state shows; nothing if they may.
   std::optional<Collisionless> collisionless() const;
-  /// Whether walls with a velocity have pressed bodies together so that, since it was asked so many
-  /// events ago, each has flown a small part of its size only, and the walls have moved by next to
-  /// nothing: the last collision of all would never come. Or bodies have become so fast thereby
-  /// that the clock does not resolve their contacts. To be asked again and again.
+  /// Whether walls with a velocity have pressed bodies together so that, since it was asked some
+  /// hundreds of collisions of each body ago, each has flown a small part of its size only, and the
+  /// walls have moved by next to nothing: the last collision of all would never come. Or bodies
+  /// have become so fast thereby that the clock does not resolve their contacts. To be asked after
+  /// exactly so many collisions, so that the answer depends on the trajectory alone.
+  double next_look_for_jam() const;
   bool is_jammed();
   bool is_quiet() const { return windows.are_quiet(gas.size()); }
   /// How a run ends that has no further event: since nothing can happen any more. If needles still
@@ -205,8 +207,11 @@ class Run {
   void set_contact_time();
 
   std::optional<double> tc_, tc_relative_;
-  Time looked_for_jam_;
-  std::uint64_t events_then_ = 0;
+  struct JamLook {
+    Time time;
+    std::uint64_t collisions = 0;  ///< by then
+  };
+  JamLook looked_for_jam_, looked_long_for_jam_;
   Time search_until_ = Time::never();
   std::uint64_t sorted_at_ = 0;  ///< value of the counter `crossings` at the last sorting
 };

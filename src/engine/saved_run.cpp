@@ -44,11 +44,12 @@ bool is_time(const Clock& clock, Time time) {
          time <= Time::never();
 }
 
-void require_flight(const kernels::Flight& f) {
+void require_flight(const kernels::Flight& f, const Body& body) {
   require(is_finite(f.r) && is_finite(f.v) && is_finite(f.u) && is_finite(f.w));
   require(std::abs(dot(f.u, f.u) - 1) < 1e-6);
   const double largest = std::max({std::abs(f.w.x), std::abs(f.w.y), std::abs(f.w.z)});
-  require(std::abs(dot(f.u, f.w)) <= 1e-6 * largest + 1e-300);
+  require(!body.has_axis() || std::abs(dot(f.u, f.w)) <= 1e-6 * largest + 1e-300);
+  require(body.turns() || largest == 0);
   require(std::isfinite(f.omega));
 }
 
@@ -112,7 +113,10 @@ std::vector<double> physics_of(const Run& run, const Scene& scene) {
   if (run.sliding)
     out.insert(out.end(), {run.sliding->below(), run.sliding->strikes_are_elastic() ? 1. : 0.});
   if (composition.has_width()) {
-    for (const Species& each : composition.species()) out.push_back(each.diameter);
+    for (const Species& each : composition.species()) {
+      out.push_back(each.diameter);
+      if (!each.has_axis()) out.push_back(each.q);
+    }
   }
   for (const Species& each : composition.species()) {
     if (!each.sizes) continue;
@@ -158,15 +162,17 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
   archive(touches);
   if (!archive.reads()) return;
   const kernels::Flight& f = record.flight;
-  require_flight(f);
   require(record.species < gas.composition.size());
+  const Body body = gas.body(i);
+  set_rotation(record.flight, body);
+  require_flight(f, body);
   if (gas.has_own_bodies()) require_body(gas.own_bodies[i], gas.composition[record.species]);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::int32_t boxes = gas.images[i][axis];
     require((gas.shear && axis == 0) || (boxes >= -most_boxes && boxes <= most_boxes));
   }
   require(is_time(gas.clock, record.time) && record.time.epoch >= 0);
-  record.renewal = renewal_time(gas, record, gas.body(i).extent());
+  record.renewal = renewal_time(gas, record, body.extent());
   require(touches.size() <= most_touches);
   require(gas.box_at(record.time).wrap(to_array(f.r)).place == to_array(f.r));
   record.touch_count = 0;
@@ -321,6 +327,13 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
     require(kicks_done < std::uint64_t{1} << 53 && now <= next_instant());
   }
   if (effects.growth) transfer_growth(archive);
+  if (gas.moving_edges) {
+    for (JamLook* look : {&looked_for_jam_, &looked_long_for_jam_})
+      archive(look->time, look->collisions);
+    require(looked_for_jam_.collisions <= tally.collisions && looked_for_jam_.time <= now &&
+            looked_long_for_jam_.collisions <= tally.collisions &&
+            looked_long_for_jam_.time <= now);
+  }
   find_next_instant();
   energy_shares.transfer(archive, sources.size(), objects, effects.shear, effects.growth);
   if (effects.stress) {

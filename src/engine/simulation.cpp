@@ -282,7 +282,12 @@ struct Simulation::Implementation {
       StopConditions before = limits;
       before.time = std::min(limits.time, instant);
       before.why = Stop::time;
+      before.collisions = std::min(limits.collisions, run.next_look_for_jam());
       const auto stop = loop->advance(before);
+      if (stop == Stop::collisions && before.collisions < limits.collisions) {
+        if (run.is_jammed()) return Stop::jammed;
+        continue;
+      }
       if (stop == Stop::time && instant <= limits.time) {
         pass_instant();
         if (const auto reached = limits.reached(run)) return *reached;
@@ -610,7 +615,16 @@ std::vector<std::uint8_t> Simulation::species() const {
 OwnBodies Simulation::own_bodies() const {
   OwnBodies out;
   const Access self = access();
-  copy_own_bodies(self->run.gas, self->run.now, self->by_id(), out);
+  const Gas& gas = self->run.gas;
+  copy_own_bodies(gas, gas.scale_at(self->run.now), self->by_id(), out);
+  return out;
+}
+OwnBodies Simulation::own_bodies_at_start() const {
+  OwnBodies out;
+  const Access self = access();
+  const Gas& gas = self->run.gas;
+  if (!gas.has_own_bodies()) return out;
+  copy_own_bodies(gas, composition().longest() / gas.composition.longest(), self->by_id(), out);
   return out;
 }
 const Composition& Simulation::composition() const {
@@ -622,10 +636,11 @@ std::optional<GrowthTotals> Simulation::growth() const {
   const Run& run = self->run;
   if (!run.growing) return std::nullopt;
   const Vector edges = run.gas.edges_at(run.now);
-  const double scale = run.gas.scale_at(run.now);
-  const double pressure = run.growing->pressure();
+  const double scale = run.gas.scale_at(run.now), pressure = run.growing->pressure();
+  const double largest = run.gas.composition.longest() / composition().longest();
   return GrowthTotals{
-      .scale = scale * (run.gas.composition.longest() / composition().longest()),
+      .scale = scale * largest,
+      .rate = run.gas.growth->rate() * largest,
       .packing_fraction = run.gas.composition.packing_fraction(edges[0] * edges[1] * edges[2]) *
                           (scale * scale * scale),
       .pressure = pressure > 0 ? pressure : std::numeric_limits<double>::quiet_NaN()};
@@ -660,6 +675,8 @@ void Simulation::copy(State& into) const {
   const Access self = access();
   const Run& run = self->run;
   copy_state(run.gas, run.now, implementation_->isa, implementation_->by_id(), into);
+  into.scale.reset();
+  if (const auto sizes = growth()) into.scale = sizes->scale;
 }
 State Simulation::copy() const {
   State out;

@@ -7,6 +7,7 @@
 
 #include "needlework/composition.h"
 #include "needlework/error.h"
+#include "src/composition/sizes.h"
 
 namespace needlework::io {
 namespace {
@@ -38,9 +39,9 @@ std::vector<double> read_numbers(const Source& source, const std::string& name) 
     throw InputError(
         fmt::format("{}: {} species: expected at most {}", place, values.size(), most_species));
   }
-  const bool may_be_zero = name == "length" || name == "diameter";
+  const bool may_be_zero = name == "length" || name == "diameter" || name == "inertia";
   for (const double value : values) {
-    const bool is_fixed = name == "mass" && std::isinf(value);
+    const bool is_fixed = (name == "mass" || name == "inertia") && std::isinf(value);
     if ((std::isfinite(value) || is_fixed) && (value > 0 || (may_be_zero && value == 0))) continue;
     throw InputError(
         fmt::format("{} = {}: expected a number {} 0", place, value, may_be_zero ? ">=" : ">"));
@@ -97,6 +98,13 @@ Bodies read_bodies(const Source& source) {
   bodies.diameter = read_numbers(source, "diameter");
   bodies.mass = read_numbers(source, "mass");
   bodies.k = read_numbers(source, "k");
+  const std::vector<double> inertia = read_numbers(source, "inertia");
+  for (std::size_t n = 0; n < inertia.size(); ++n) {
+    const auto number = [n](const std::vector<double>& of) { return n < of.size() ? of[n] : 0; };
+    const double mass = number(bodies.mass), diameter = number(bodies.diameter);
+    const bool is_sphere = number(bodies.length) == 0 && diameter > 0;
+    bodies.q.push_back(is_sphere && std::isfinite(mass) ? q_of(mass, diameter, inertia[n]) : 0);
+  }
   if (!has_dataset(source, "/parameters/mass") && !has_own_bodies(source))
     bodies.mass = masses_by_species(source);
   // There is a species of which the file has no particle.
@@ -135,6 +143,32 @@ OwnBodies read_own_bodies(const Source& source, std::size_t needles) {
   out.mass = read("mass", true, false);
   out.inertia = read("inertia", true, true);
   return out;
+}
+
+void enlarge(State& state, double scale) {
+  Bodies& bodies = state.bodies;
+  OwnBodies& own = state.own_bodies;
+  const auto fill = [&](std::vector<double>& rows, const std::vector<double>& of_species) {
+    if (!rows.empty() || of_species.empty()) return;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      const std::size_t species = state.species.empty() ? 0 : state.species[i];
+      rows.push_back(of_species[std::min(species, of_species.size() - 1)]);
+    }
+  };
+  std::vector<double> inertias;
+  for (std::size_t n = 0; n < std::min({bodies.length.size(), bodies.mass.size(), bodies.k.size()});
+       ++n) {
+    const double length = bodies.length[n];
+    inertias.push_back(length > 0 ? bodies.mass[n] * (length * length) / (2 * bodies.k[n]) : 0);
+  }
+  fill(own.length, bodies.length);
+  fill(own.diameter, bodies.diameter);
+  fill(own.mass, bodies.mass);
+  fill(own.inertia, inertias);
+  for (std::vector<double>* sizes : {&bodies.length, &bodies.diameter, &own.length, &own.diameter})
+    for (double& size : *sizes) size *= scale;
+  for (double& k : bodies.k) k *= scale * scale;
+  state.scale = scale;
 }
 
 }  // namespace needlework::io

@@ -25,4 +25,8 @@ OwnBodies read_own_bodies(const Source& source, std::size_t needles);
 /// not hold masses. Throws InputError if those of a species differ.
 std::vector<double> masses_by_species(const Source& source);
 
+/// Makes the bodies of a state larger by this factor of growth, with numbers of each needle, as
+/// whoever has read those of the species from the file has them as at the start.
+void enlarge(State& state, double scale);
+
 }  // namespace needlework::io

@@ -140,8 +140,8 @@ std::vector<Description> run_file_descriptions() {
       {"/particles/needles/orientation", "Unit vector along each needle", none,
        "[frames][needles][3]"},
       {"/particles/needles/angular_velocity",
-       "Angular velocity of each needle, perpendicular to its orientation", angular_speed,
-       "[frames][needles][3]"},
+       "Angular velocity of each needle, perpendicular to its orientation but for spheres",
+       angular_speed, "[frames][needles][3]"},
       {"/particles/needles/id", "Identity of each needle, the same in all frames", none,
        "[needles]"},
       {"/particles/needles/mass", "Mass of each needle", "mass", "[needles]"},
@@ -252,6 +252,13 @@ std::vector<Description> moving_wall_descriptions() {
           {"/particles/needles/box/low",
            "Place of the low edges, of which a wall may have moved one; positions count from 0",
            length, "[frames][3]"}};
+}
+
+std::vector<Description> growth_descriptions() {
+  return {{"/particles/needles/box/scale",
+           "Sizes of all bodies in those of the start, which are in the parameters and in length "
+           "and diameter of the needles",
+           none, "[frames]"}};
 }
 
 std::vector<Description> shear_descriptions() {
@@ -398,8 +405,8 @@ std::vector<Description> vtkhdf_descriptions() {
       {"/VTKHDF/CellData/velocity", "Velocity of the centre of each needle", speed, "[needles][3]"},
       {"/VTKHDF/CellData/orientation", "Unit vector along each needle", none, "[needles][3]"},
       {"/VTKHDF/CellData/angular_velocity",
-       "Angular velocity of each needle, perpendicular to its orientation", angular_speed,
-       "[needles][3]"},
+       "Angular velocity of each needle, perpendicular to its orientation but for spheres",
+       angular_speed, "[needles][3]"},
   };
 }
 

@@ -31,6 +31,7 @@ std::vector<Description> own_body_descriptions();  ///< where bodies of a specie
 std::vector<Description> rod_descriptions(bool of_each_species);  ///< of rods of finite width
 std::vector<Description> event_kind_descriptions();               ///< where events have kinds
 std::vector<Description> wall_descriptions();                     ///< where there are walls
+std::vector<Description> growth_descriptions();                   ///< of bodies that grow
 std::vector<Description> moving_wall_descriptions();              ///< of walls with a velocity
 std::vector<Description> shear_descriptions();                    ///< of uniform shear
 std::vector<Description> series_descriptions(                     ///< and their groups in /series

@@ -116,6 +116,10 @@ StepAndTime make_needles(hid_t group, const Scene& scene, std::vector<std::uint8
   if (scene.has_moving_walls())
     make_element(box.get(), "low", shared, type_of<double>(), {3}, 64, place);
 
+  // H5MD knows no element of the particles with one number a frame.
+  if (scene.driving.growth)
+    make_element(box.get(), "scale", shared, type_of<double>(), {}, samples_per_chunk, place);
+
   std::vector<std::uint32_t> ids(count);
   std::iota(ids.begin(), ids.end(), 0u);
   hdf5::write_array<std::uint32_t>(group, "id", {count}, ids, place);
@@ -295,6 +299,7 @@ void make_layout(hid_t file, const Scene& scene, const RunInfo& run, const std::
   if (!composition.all_meet()) write_descriptions(file, passing_descriptions(), place);
   if (!scene.walls.empty()) write_descriptions(file, wall_descriptions(), place);
   if (scene.has_moving_walls()) write_descriptions(file, moving_wall_descriptions(), place);
+  if (scene.driving.growth) write_descriptions(file, growth_descriptions(), place);
   if (scene.shear) write_descriptions(file, shear_descriptions(), place);
   if (run.has_kinds) write_descriptions(file, event_kind_descriptions(), place);
   write_descriptions(file, run_file_descriptions(), place);

@@ -22,8 +22,8 @@
 namespace needlework {
 
 static void transfer(Archive& archive, Bodies& bodies) {
-  auto& [names, length, diameter, mass, k] = bodies;
-  archive(names, length, diameter, mass, k);
+  auto& [names, length, diameter, mass, k, q] = bodies;
+  archive(names, length, diameter, mass, k, q);
 }
 
 static void transfer(Archive& archive, OwnBodies& bodies) {
@@ -31,10 +31,10 @@ static void transfer(Archive& archive, OwnBodies& bodies) {
 }
 
 static void transfer(Archive& archive, State& state) {
-  auto& [box, low, periodic, slide, shear_rate, position, velocity, peculiar_velocity, peculiar_x,
-         orientation, angular_velocity, image, id, species, bodies, own_bodies] = state;
-  archive(box, low, periodic, slide, shear_rate, position, velocity, peculiar_velocity, peculiar_x,
-          orientation, angular_velocity, image, id, species, bodies, own_bodies);
+  auto& [box, low, periodic, slide, shear_rate, scale, position, velocity, peculiar_velocity,
+         peculiar_x, orientation, angular_velocity, image, id, species, bodies, own_bodies] = state;
+  archive(box, low, periodic, slide, shear_rate, scale, position, velocity, peculiar_velocity,
+          peculiar_x, orientation, angular_velocity, image, id, species, bodies, own_bodies);
 }
 
 }  // namespace needlework
@@ -87,6 +87,7 @@ class FrameReader {
   std::array<bool, 3> read_periodic() const;
   Vector read_box(double& xy);
   Vector read_low();
+  double read_scale();
   bool has_row_a_frame(const Element& edges) const;
   Vector diagonal(const Slice& edges, double& xy) const;
   double read_shear_rate() const;
@@ -109,7 +110,7 @@ class FrameReader {
 FrameReader::FrameReader(const std::string& path) : source_(path), group_(find_particles(source_)) {
   for (const char* name : {"position", "velocity", "orientation", "angular_velocity"})
     element(name);
-  for (const char* name : {"image", "id", "species", "box/edges", "box/low"}) {
+  for (const char* name : {"image", "id", "species", "box/edges", "box/low", "box/scale"}) {
     if (has(name)) element(name);
   }
   if (!has("box/edges")) reject(source_.place(group_ + "/box/edges"), ": missing: expected edges");
@@ -159,7 +160,6 @@ State FrameReader::read(std::size_t frame) {
   for (auto& image : state.image) image = tilt.counted(image);
   if (has("id")) state.id = read_ids();
   if (has("species")) state.species = read_species();
-  require_needles(state);
   state.bodies = bodies();
   state.own_bodies = read_own_bodies(source_, needles_);
   // Files do not write it for thin needles.
@@ -167,6 +167,8 @@ State FrameReader::read(std::size_t frame) {
   const bool are_thin =
       std::ranges::all_of(state.bodies.diameter, [](double diameter) { return diameter == 0; });
   if (!own.empty() && own.diameter.empty() && are_thin) own.diameter.assign(needles_, 0);
+  if (has("box/scale")) enlarge(state, read_scale());
+  require_needles(state);
   return state;
 }
 
@@ -254,6 +256,18 @@ Vector FrameReader::read_low() {
       reject(place(low), fmt::format(", axis {} = {}: expected a finite number", axis, out[axis]));
   }
   return out;
+}
+
+// The sizes of bodies that grow, of a file of this program.
+double FrameReader::read_scale() {
+  const Element& scale = element("box/scale");
+  if (scale.shape().size() != 1)
+    reject(place(scale),
+           fmt::format(": shape {}: expected [frames]", hdf5::to_string(scale.shape())));
+  const double value = scale.read<double>(slice(scale, 0).frame).front();
+  if (!(value > 0) || std::isinf(value))
+    reject(place(scale), fmt::format(" = {}: expected a finite number > 0", value));
+  return value;
 }
 
 // Whether edges of shape [n][3] have one row for each frame. The shape [3][3] is read as a matrix
@@ -375,6 +389,15 @@ std::vector<std::uint32_t> FrameReader::read_ids() {
   return ids;
 }
 
+// Whether it may be a sphere, whose director marks nothing: the file says so, or leaves that to the
+// scene (adopt_state()).
+static bool may_be_sphere(const State& state, std::size_t i) {
+  if (!state.own_bodies.length.empty()) return state.own_bodies.length[i] == 0;
+  const std::size_t species = state.species.empty() ? 0 : state.species[i];
+  const std::vector<double>& known = state.bodies.length;
+  return known.empty() || (species < known.size() && known[species] == 0);
+}
+
 void FrameReader::require_needles(const State& state) {
   const auto show = [&](const char* name, std::size_t i, const Vector& v) {
     const Element& source = element(name);
@@ -389,6 +412,7 @@ void FrameReader::require_needles(const State& state) {
              fmt::format(", of length {}: expected a unit vector, within {}", length_of(u),
                          director_tolerance));
     }
+    if (may_be_sphere(state, i)) continue;
     if (const double part = part_along(w, u); !(std::abs(part) <= director_tolerance)) {
       reject(show("angular_velocity", i, w),
              fmt::format(", of which {} of its length along the director: expected none, within {}",

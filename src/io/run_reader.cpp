@@ -60,10 +60,10 @@ void read_sum(const Source& source, const std::string& name, std::vector<Totals>
 
 // Adding a member fails to compile here.
 static void transfer(Archive& archive, RecordedRun& run) {
-  auto& [scene, version, needles, series, walls, pressure, energy] = run;
+  auto& [scene, version, needles, series, walls, pressure, energy, growth] = run;
   archive(scene, version, needles, series, walls, pressure);
   archive(energy.pairs, energy.walls, energy.thermostat, energy.kicks, energy.gravity, energy.shear,
-          energy.growth, energy.cooling, energy.velocities_set);
+          energy.growth, energy.cooling, energy.velocities_set, growth);
 }
 
 namespace {
@@ -129,6 +129,20 @@ void read_energy_budget(const Source& source, RecordedRun& run) {
       of_each_wall(source, group + "/walls", samples, run.walls.size()).read<double>(samples - 1);
 }
 
+void read_growth(const Source& source, RecordedRun& run) {
+  const std::size_t samples = run.series.size();
+  for (const auto& [group, prefix] :
+       {std::pair<std::string, std::string>("/series/growth", "growth_"),
+        {"/series/contact_network", "network_"}}) {
+    if (samples == 0 || !has_group(source, group)) continue;
+    const hdf5::Handle opened = hdf5::open_group(source.get(), group, source.place(group));
+    for (const std::string& name : hdf5::children(opened.get(), source.place(group))) {
+      run.growth.emplace_back(prefix + name,
+                              Element(source, group + "/" + name).read<double>(samples - 1).at(0));
+    }
+  }
+}
+
 }  // namespace
 
 static RecordedRun read_run_here(const std::string& path, bool with_series) {
@@ -142,6 +156,7 @@ static RecordedRun read_run_here(const std::string& path, bool with_series) {
       [&](const Described& sum, auto member) { read_sum(source, sum.name, run.series, member); });
   read_walls(source, run);
   read_energy_budget(source, run);
+  read_growth(source, run);
   return run;
 }
 

@@ -111,6 +111,9 @@ Frames::Frames(hid_t file, const std::string& place, std::uint64_t rows)
   constexpr const char* low = "/particles/needles/box/low";
   if (check(H5Lexists(file, low, H5P_DEFAULT), place) > 0)
     low_.emplace(file, std::string(low) + "/value", place);
+  constexpr const char* scale = "/particles/needles/box/scale";
+  if (check(H5Lexists(file, scale, H5P_DEFAULT), place) > 0)
+    scale_.emplace(file, std::string(scale) + "/value", place);
   if (needles_ == 0) return;
   check(H5Dread(id_.get(), type_of<std::uint32_t>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, ids_.data()),
         place_);
@@ -128,6 +131,10 @@ void Frames::append(const State& state) {
   const auto vectors = box_of(state).vectors();
   edges_.append(vectors.front().data(), 1);
   if (low_) low_->append(state.low.data(), 1);
+  if (scale_) {
+    const double scale = state.scale.value_or(1);
+    scale_->append(&scale, 1);
+  }
   const auto append_frame = [](Column& column, const auto& rows) {
     column.append(
         reinterpret_cast<const typename std::decay_t<decltype(rows[0])>::value_type*>(rows.data()),

@@ -88,6 +88,7 @@ class Frames {
   Column edges_, position_, image_, velocity_, orientation_, angular_velocity_;
   std::optional<Column> peculiar_velocity_;  ///< in a uniform flow
   std::optional<Column> low_;                ///< where walls move edges
+  std::optional<Column> scale_;              ///< of bodies that grow
 };
 
 /// A change of all velocities by a caller.

@@ -33,7 +33,7 @@ Json spread_json(const Spread& spread, Json drawn) {
 
 Json k_of(const Species& species) {
   if (species.fixed) return nullptr;
-  return species.sizes && species.turns() ? species.sizes->k.mean : species.k;
+  return species.sizes && species.has_axis() ? species.sizes->k.mean : species.k;
 }
 
 void add_sizes(Json& json, const Species& species) {
@@ -102,6 +102,10 @@ void add_energy_budget(Json& json, const Simulation& simulation) {
 
 void add_contacts(Json& json, const Simulation& simulation) {
   if (const auto contacts = simulation.sliding_contacts()) add_numbers(json["contacts"], *contacts);
+}
+
+void add_growth(Json& json, const Simulation& simulation) {
+  if (const auto growth = simulation.growth()) add_numbers(json["growth"], *growth);
 }
 
 void add_stress(Json& json, const Simulation& simulation) {

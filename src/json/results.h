@@ -48,6 +48,9 @@ void add_energy_budget(nlohmann::ordered_json& json, const Simulation& simulatio
 /// Adds "contacts", where needles may slide on each other.
 void add_contacts(nlohmann::ordered_json& json, const Simulation& simulation);
 
+/// Adds "growth", where bodies grow.
+void add_growth(nlohmann::ordered_json& json, const Simulation& simulation);
+
 /// Adds "pressure_tensor", where it is measured.
 void add_stress(nlohmann::ordered_json& json, const Simulation& simulation);
 

@@ -3,7 +3,7 @@
 // the axis, of spheres the diameter. Of the needles of a class
 //
 //   t_tr        <m v^2> / 3
-//   t_rot       <I w^2> / 2
+//   t_rot       <I w^2> / 2, <I w^2> / 3 of rough spheres
 //   collisions  that they have taken part in since the start of the run, each counted once for
 //               either needle
 //
@@ -36,7 +36,7 @@ struct Classes {
 
 double size_of(const SpeciesById& needles, std::size_t row, const Species& species) {
   const OwnBodies& own = needles.own();
-  if (species.turns()) return own.empty() ? species.length : own.length[row];
+  if (species.has_axis()) return own.empty() ? species.length : own.length[row];
   return own.empty() ? species.diameter : own.diameter[row];
 }
 
@@ -138,7 +138,8 @@ class BySize : public Observable {
       const Vector &v = now.state.velocity[i], &w = now.state.angular_velocity[i];
       SpeciesTotals& of = out[of_row_[i]];
       of.t_tr += species.mass * weights.mass(i) * dot(v, v);
-      of.t_rot += species.inertia() * weights.inertia(i) * dot(w, w);
+      of.t_rot +=
+          species.inertia() * weights.inertia(i) * dot(w, w) * (species.has_axis() ? 1 : 2. / 3);
     }
     for (std::size_t part = 0; part < out.size(); ++part) {
       out[part].count = static_cast<std::uint64_t>(count_[part]);

@@ -41,7 +41,7 @@ void SnapshotsOfParts::begin(const Snapshot& all, std::span<const SpeciesTotals>
     part.state.own_bodies = {};
     const SpeciesTotals& sums = totals[n];
     part.totals = {.time = all.totals.time, .t_tr = sums.t_tr, .t_rot = sums.t_rot};
-    part.totals.energy = 1.5 * sums.t_tr + sums.t_rot;
+    part.totals.energy = 1.5 * sums.t_tr + 0.5 * part.gas.rotations * sums.t_rot;
     part.species.totals = {sums};
     part.snapshot.emplace(part.gas, part.state, part.totals, part.species);
   }

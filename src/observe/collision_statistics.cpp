@@ -5,7 +5,7 @@
 //   chains           finished chains by length. A chain is a sequence of collisions of one pair
 //                    between which neither needle collides with another; it is finished when one
 //                    does. Longer ones are in the last bin.
-//   arms             s / L of both needles, each in its own length: where the contact lies
+//   arms             s / L of both needles, each in its own length then: where the contact lies
 //   angle            angle between the directors, from 0 to pi; in equilibrium its density is
 //                    (2 / pi) sin^2
 //   normal_velocity  |V_n| in units of sigma, sigma^2 = 2 T_tr / m + T_rot (s12^2 + s21^2) / I with
@@ -146,8 +146,9 @@ class CollisionStatistics : public Observable {
     Counts& counts = counts_[gas_.composition.pair_index(a, b)];
     ++counts.collisions;
     follow_chains(c.first, c.second, counts);
-    counts.arms.add(first.length > 0 ? c.arm_first / first.length : 0);
-    counts.arms.add(second.length > 0 ? c.arm_second / second.length : 0);
+    const double scale = scale_at(c.time);
+    counts.arms.add(share_of(c.arm_first, first.length * scale));
+    counts.arms.add(share_of(c.arm_second, second.length * scale));
     counts.angle.add(std::atan2(c.sin_angle, dot(c.after[0].orientation, c.after[1].orientation)));
     const double squares =
         last_[a].t_tr / first.mass + last_[b].t_tr / second.mass +
@@ -168,6 +169,8 @@ class CollisionStatistics : public Observable {
     }
     for (const Row& each : by_name) row.put_all(each.values());
     counts_.assign(counts_.size(), {});
+    time_ = now.totals.time;
+    sizes_ = now.species.growth;
     for (std::size_t n = 0; n < last_.size(); ++n) {
       last_[n] = {now.species.totals[n].t_tr, now.species.totals[n].t_rot};
     }
@@ -176,6 +179,7 @@ class CollisionStatistics : public Observable {
   void transfer(Archive& archive) override {
     for (Counts& each : counts_) each.transfer(archive);
     for (Temperatures& each : last_) archive(each.t_tr, each.t_rot);
+    if (gas_.grows) archive(time_, sizes_.scale, sizes_.rate);
     std::map<std::uint32_t, Chain> open(open_.begin(), open_.end());
     archive(open);
     open_ = {open.begin(), open.end()};
@@ -187,6 +191,16 @@ class CollisionStatistics : public Observable {
   struct Temperatures {
     double t_tr = 0, t_rot = 0;
   };
+
+  double scale_at(double time) const {
+    return gas_.grows ? sizes_.scale + sizes_.rate * (time - time_) : 1;
+  }
+  // Bodies that grow are as long as their caps are apart but for rounding.
+  double share_of(double arm, double length) const {
+    if (!(length > 0)) return 0;
+    const double share = arm / length;
+    return gas_.grows ? std::clamp(share, -0.5, 0.5) : share;
+  }
 
   void follow_chains(std::uint32_t first, std::uint32_t second, Counts& counts) {
     const Chain& chain = open_[first];
@@ -214,6 +228,8 @@ class CollisionStatistics : public Observable {
   GasSetting gas_;
   std::vector<Counts> counts_;      ///< by pair of species
   std::vector<Temperatures> last_;  ///< by species
+  double time_ = 0;                 ///< of the sample before
+  GrowthTotals sizes_;              ///< then
   std::unordered_map<std::uint32_t, Chain> open_;
 };
 

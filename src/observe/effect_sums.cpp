@@ -131,7 +131,16 @@ class ContactSums : public Observable {
   bool reads_state() const override { return false; }
 };
 
+class GrowthSums : public Observable {
+ public:
+  std::vector<SeriesField> fields() const override { return fields_of(GrowthTotals{}); }
+  void sample(const Snapshot& now, Row& row) override { put_numbers(row, now.species.growth); }
+  bool reads_state() const override { return false; }
+};
+
 }  // namespace
+
+ObservablePointer make_growth_sums() { return std::make_unique<GrowthSums>(); }
 
 ObservablePointer make_contact_sums() { return std::make_unique<ContactSums>(); }
 

@@ -14,4 +14,7 @@ ObservablePointer make_energy_budget(const Scene& scene);
 /// Contacts of needles that slide on each other, and how they have ended.
 ObservablePointer make_contact_sums();
 
+/// Sizes, packing and pressure of bodies that grow.
+ObservablePointer make_growth_sums();
+
 }  // namespace needlework::observe

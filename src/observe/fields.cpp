@@ -43,7 +43,7 @@ class Fields : public Observable {
     for (const Vector& flow : cells.flow) row.put_all(flow);
     for (const Vector& spin : cells.spin) row.put_all(spin);
     for (const double v2 : cells.flow_v2) row.put(gas_.mass * v2 / 2);
-    for (const double w2 : cells.spin_w2) row.put(gas_.inertia * w2 / 2);
+    for (const double w2 : cells.spin_w2) row.put(gas_.t_rot(w2));
   }
 
  private:

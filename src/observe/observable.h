@@ -72,9 +72,11 @@ struct GasSetting {
   Box box;                  ///< at the start, if walls move edges
   double length = 1;        ///< the longest extent [L]
   double mass = 1;          ///< of one species the mean, of several none
-  double inertia = 1;       ///< I = m L^2 / (2 k)
+  double inertia = 1;       ///< I = m L^2 / (2 k), or q m D^2 / 4 of rough spheres
+  int rotations = 2;        ///< rotational degrees of freedom; 3 of rough spheres
   bool is_sheared = false;  ///< rows of boxes slide, if only by what they have at the start
   double shear_rate = 0;    ///< of the uniform flow [1 / time]
+  bool grows = false;       ///< whether bodies do; sizes are those of the start
   std::array<int, 3> cells{1, 1, 1};
   std::vector<Slabs> wall_slabs;  ///< across each axis with walls
   Composition composition;
@@ -83,6 +85,8 @@ struct GasSetting {
   /// The edges of the box as walls with a velocity move them, where there are some.
   std::optional<MovingEdges> moving_edges;
 
+  /// The rotational temperature with this mean square of the angular velocity, of one species.
+  double t_rot(double w2) const { return inertia * w2 / rotations; }
   double volume() const { return box.volume(); }
   double volume_at(double time) const;
   /// The mean between two times since the start of the scene.
@@ -98,7 +102,8 @@ std::vector<SeriesField::Extent> by_pair(const Composition& composition,
                                          std::vector<SeriesField::Extent> shape);
 
 /// Sums by species at one instant, collisions of each two by Composition::pair_index, hits on
-/// walls, what has changed the energy, the virial of rods, contacts, and the pressure tensor.
+/// walls, what has changed the energy, the virial of rods, contacts, the pressure tensor, and
+/// sizes.
 struct SpeciesSums {
   std::vector<SpeciesTotals> totals = {};
   std::vector<std::uint64_t> collisions = {};
@@ -108,6 +113,7 @@ struct SpeciesSums {
   double t_tr_integral = 0;       ///< of rods, Simulation::t_tr_integral()
   SlidingContacts contacts = {};  ///< of needles that slide on each other
   StressSums stress = {};         ///< where it is measured
+  GrowthTotals growth = {};       ///< of bodies that grow
 };
 
 /// The gas at one instant. Holds references.

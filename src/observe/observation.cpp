@@ -22,6 +22,7 @@ GasSetting setting_of(const Scene& scene) {
   gas.moving_edges = moving_edges_of(scene, gas.box.edges());
   gas.is_sheared = scene.shear.has_value();
   gas.shear_rate = scene.shear ? scene.shear->rate : 0;
+  gas.grows = scene.driving.growth.has_value();
   gas.cells = scene.output.grid.value_or(default_cells(gas.box.edges(), gas.count));
   gas.wall_slabs = wall_slabs(scene);
   gas.composition = scene.composition();
@@ -51,6 +52,7 @@ GasSetting GasSetting::of_species(std::size_t index) const {
   out.length = species.greatest_extent();
   out.mass = species.mass;
   out.inertia = species.inertia();
+  out.rotations = std::max(2, species.rotations());  // smooth spheres have a temperature of 0
   out.composition = Composition({species}, composition.restitution(index, index));
   out.species_by_id = {};
   return out;
@@ -102,6 +104,10 @@ Observation::Observation(const Scene& scene, ObservablePointer cooling, SpeciesB
   if (scene.collisions.sliding) {
     members_.push_back(
         {"contacts", "Contacts of needles that slide on each other", make_contact_sums()});
+  }
+  if (scene.driving.growth) {
+    members_.push_back(
+        {"growth", "Sizes, packing and pressure of bodies that grow", make_growth_sums()});
   }
   if (cooling) {
     members_.push_back({"theory",
@@ -161,7 +167,8 @@ std::span<const double> Observation::sample(const State& state, const Totals& to
                            species.virial,
                            species.t_tr_integral,
                            species.contacts,
-                           species.stress};
+                           species.stress,
+                           species.growth};
   const Snapshot now(gas_, state, totals, is_mixture ? species : of_all);
   if (is_mixture) parts_.take(now, std::span(state.species), species.totals);
   for (const Member& member : members_) member.observable->sample(now, row_);

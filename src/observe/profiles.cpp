@@ -50,7 +50,7 @@ class Profiles : public Observable {
     for (const auto& axis : axes)
       for (const double v2 : axis.flow_v2) row.put(gas_.mass * v2 / 2);
     for (const auto& axis : axes)
-      for (const double w2 : axis.spin_w2) row.put(gas_.inertia * w2 / 2);
+      for (const double w2 : axis.spin_w2) row.put(gas_.t_rot(w2));
     if (gas_.moving_edges) row.put_all(middles(now.edges(), now.low()));
   }
 

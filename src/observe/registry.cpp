@@ -33,6 +33,8 @@ constexpr Entry entries[] = {
     {"wall_profiles", "Density, temperatures and order in slabs between walls, or over one",
      make_wall_profiles},
     {"centre_of_mass", "Centre of mass along the axes with walls", make_centre_of_mass, true},
+    {"contact_network", "Contacts of bodies that grow, and bodies that few others hold",
+     make_contact_network, true},
     {"pressure_tensor",
      "Pressure tensor by flights and by collisions, viscosity and normal stress differences",
      make_pressure_tensor, true},

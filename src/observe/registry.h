@@ -35,6 +35,7 @@ ObservablePointer make_time_correlation(const GasSetting& gas);
 ObservablePointer make_collision_statistics(const GasSetting& gas);
 ObservablePointer make_wall_profiles(const GasSetting& gas);
 ObservablePointer make_centre_of_mass(const GasSetting& gas);
+ObservablePointer make_contact_network(const GasSetting& gas);
 ObservablePointer make_pressure_tensor(const GasSetting& gas);
 
 }  // namespace needlework::observe

@@ -14,13 +14,14 @@ namespace {
 
 class RodSums : public Observable {
  public:
-  explicit RodSums(const Scene& scene, const GasSetting& gas) : pressure_(scene), gas_(gas) {}
+  explicit RodSums(const Scene& scene, const GasSetting& gas)
+      : pressure_(scene), gas_(gas), grows_(scene.driving.growth.has_value()) {}
 
   std::vector<SeriesField> fields() const override {
     auto out = fields_of(RodTotals{});
     for (SeriesField& field : out) {
       if (field.name == "packing_fraction") {
-        if (gas_.moving_edges) continue;
+        if (packing_varies()) continue;
         field.kind = SeriesField::Kind::constant;
         field.values = {packing_at(0)};
       } else if (field.name == "pressure") {
@@ -36,11 +37,12 @@ class RodSums : public Observable {
   void sample(const Snapshot& now, Row& row) override {
     const PressureSums sums = pressure_sums(now.totals.time, now.species.t_tr_integral,
                                             now.species.virial, now.species.walls);
-    const std::vector<RodTotals> rods{{.packing_fraction = packing_at(sums.time),
-                                       .virial = sums.virial,
-                                       .pressure = pressure_.between(before_, sums)}};
+    const std::vector<RodTotals> rods{
+        {.packing_fraction = grows_ ? now.species.growth.packing_fraction : packing_at(sums.time),
+         .virial = sums.virial,
+         .pressure = pressure_.between(before_, sums)}};
     put_numbers(row, rods, [&](std::string_view name) {
-      return gas_.moving_edges || name != "packing_fraction";
+      return packing_varies() || name != "packing_fraction";
     });
     before_ = sums;
   }
@@ -59,8 +61,11 @@ class RodSums : public Observable {
     return gas_.composition.packing_fraction(gas_.volume_at(time));
   }
 
+  bool packing_varies() const { return gas_.moving_edges || grows_; }
+
   Pressure pressure_;
   GasSetting gas_;
+  bool grows_;
   PressureSums before_;  ///< at the sample before
 };
 

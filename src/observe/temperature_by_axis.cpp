@@ -1,7 +1,7 @@
 // Temperatures of the motion along and about each axis a of the box:
 //
 //   t_tr   <m v_a^2>
-//   t_rot  (3/2) <I w_a^2>
+//   t_rot  (3/2) <I w_a^2>, <I w_a^2> of rough spheres
 //
 // The mean of the three is T_tr and T_rot, and in an isotropic gas all three are equal.
 #include "src/observe/registry.h"
@@ -38,7 +38,7 @@ class TemperatureByAxis : public Observable {
     }
     const double count = static_cast<double>(now.state.size());
     for (const double sum : v2) row.put(gas_.mass * sum / count);
-    for (const double sum : w2) row.put(1.5 * gas_.inertia * sum / count);
+    for (const double sum : w2) row.put(3.0 / gas_.rotations * gas_.inertia * sum / count);
   }
 
  private:

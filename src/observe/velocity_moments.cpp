@@ -3,7 +3,7 @@
 // inertia differ within a species, v stands for sqrt(m) v and w for sqrt(I) w.
 //
 //   cumulant_v         (3/5) <v^4> / <v^2>^2 - 1, the second Sonine coefficient
-//   cumulant_w         (1/2) <w^4> / <w^2>^2 - 1, as w has two components
+//   cumulant_w         (1/2) <w^4> / <w^2>^2 - 1, as w has two components; 3/5 of rough spheres
 //   speeds             <v^2 w^2> / (<v^2> <w^2>) - 1
 //   velocity_spin      <(v . w)^2> / <v^2 w^2> - 1/3, over 2/3: 1 if they are parallel, -1/2 normal
 //   velocity_director  <(v . u)^2> / <v^2> - 1/3, over 2/3: 1 if needles fly along themselves,
@@ -18,10 +18,14 @@ namespace {
 
 class VelocityMoments : public Observable {
  public:
+  explicit VelocityMoments(const GasSetting& gas) : rotations_(gas.rotations) {}
+
   std::vector<SeriesField> fields() const override {
     return {
         {"cumulant_v", "Fourth cumulant of the velocities, (3/5) <v^4> / <v^2>^2 - 1", unit::none},
-        {"cumulant_w", "Fourth cumulant of the angular velocities, (1/2) <w^4> / <w^2>^2 - 1",
+        {"cumulant_w",
+         "Fourth cumulant of the angular velocities, (1/2) <w^4> / <w^2>^2 - 1; 3/5 in the place "
+         "of 1/2 of rough spheres",
          unit::none},
         {"speeds", "Correlation of the two speeds, <v^2 w^2> / (<v^2> <w^2>) - 1", unit::none},
         {"velocity_spin",
@@ -53,17 +57,22 @@ class VelocityMoments : public Observable {
     }
     const double count = static_cast<double>(now.state.size());
     row.put(0.6 * (v4 * count / (v2 * v2)) - 1);
-    row.put(0.5 * (w4 * count / (w2 * w2)) - 1);
+    // <x^2>^2 / <x^4> of a Gaussian vector of so many components.
+    const double of_spin = rotations_ == 3 ? 0.6 : 0.5;
+    row.put(of_spin * (w4 * count / (w2 * w2)) - 1);
     row.put(v2w2 * count / (v2 * w2) - 1);
     row.put(1.5 * (along_spin / v2w2) - 0.5);
     row.put(1.5 * (along_director / v2) - 0.5);
   }
+
+ private:
+  int rotations_;
 };
 
 }  // namespace
 
-ObservablePointer make_velocity_moments(const GasSetting&) {
-  return std::make_unique<VelocityMoments>();
+ObservablePointer make_velocity_moments(const GasSetting& gas) {
+  return std::make_unique<VelocityMoments>(gas);
 }
 
 }  // namespace needlework::observe

@@ -109,7 +109,7 @@ class WallProfiles : public Observable {
     });
     put([](const SlabSums& slab, const Slabs&) { return slab.v_normal / slab.mass; });
     put_mean(&SlabSums::v2, gas_.mass / 3);
-    put_mean(&SlabSums::w2, gas_.inertia / 2);
+    put_mean(&SlabSums::w2, gas_.t_rot(1));
     put_mean(&SlabSums::v2_normal, gas_.mass);
     for (const std::vector<SlabSums>& slabs : axes) {
       for (const SlabSums& slab : slabs)
@@ -121,7 +121,8 @@ class WallProfiles : public Observable {
                             : std::numeric_limits<double>::quiet_NaN();
     });
     put_mean(&SlabSums::p2, 1);
-    put_mean(&SlabSums::cos2, gas_.inertia > 0 ? 1 : std::numeric_limits<double>::quiet_NaN());
+    const bool has_axes = !gas_.composition.are_spheres();
+    put_mean(&SlabSums::cos2, has_axes ? 1 : std::numeric_limits<double>::quiet_NaN());
     for (const std::vector<SlabSums>& slabs : axes)
       for (const SlabSums& slab : slabs) slab.order.put(row);
     row.put_all(outside);

@@ -15,12 +15,13 @@ struct Body {
   /// How far any point of it may depart from the flight of its record, where needles slide. [L]
   double departure = 0;
   double mass = 1;
-  double inertia = 1.0 / 12;    ///< 0 for spheres, whose rotation nothing changes [m L^2]
+  double inertia = 1.0 / 12;    ///< 0 for smooth spheres, whose rotation nothing changes [m L^2]
   double inverse_mass = 1;      ///< [1 / m]
-  double inverse_inertia = 12;  ///< 2 k / (m L^2), 0 for spheres [1 / (m L^2)]
+  double inverse_inertia = 12;  ///< 2 k / (m L^2), 0 for smooth spheres [1 / (m L^2)]
 
-  bool turns() const { return inertia > 0; }
-  double length() const { return 2 * half_length; }        ///< of the axis [L]
+  bool has_axis() const { return half_length > 0; }  ///< whether it is no sphere
+  bool turns() const { return inertia > 0; }         ///< whether collisions change its rotation
+  double length() const { return 2 * half_length; }  ///< of the axis [L]
   double extent() const { return length() + 2 * radius; }  ///< from end to end [L]
   /// From the centre: centres of two bodies in contact are no farther apart than both reach. [L]
   double reach() const { return half_length + width(); }
@@ -35,7 +36,9 @@ inline Body body_of(const Species& species) {
           .mass = species.mass,
           .inertia = species.inertia(),
           .inverse_mass = 1 / species.mass,
-          .inverse_inertia = species.turns() ? 2 * species.k / squares : 0};
+          .inverse_inertia = species.has_axis() ? 2 * species.k / squares
+                             : species.turns()  ? 1 / species.inertia()
+                                                : 0};
 }
 
 inline Body body_of(const BodyNumbers& numbers) {

@@ -40,15 +40,16 @@ Tangential tangential(const kernels::ContactGeometry& c, const Vec3d& v, double 
 
 template <Surface surface>
 Impact collide(const CollidingPair& pair, const Restitution& restitution) {
-  const auto& [v_first, w_first, v_second, w_second, body_first, body_second, c, side, growth] =
-      pair;
+  const auto& [v_first, w_first, v_second, w_second, body_first, body_second, c, side, growth,
+               scale] = pair;
   const double epsilon = restitution.epsilon;
-  constexpr bool turns = surface != Surface::sphere;
+  constexpr bool are_spheres = surface == Surface::sphere || surface == Surface::rough_sphere;
+  constexpr bool turns = !are_spheres;
   Vec3d v = v_first - v_second;
   if constexpr (turns) {
     v += cross(w_first, c.u_first) * c.arm_first - cross(w_second, c.u_second) * c.arm_second;
   }
-  constexpr bool may_grow = surface == Surface::wide || surface == Surface::sphere;
+  constexpr bool may_grow = surface == Surface::wide || are_spheres;
   double vn = dot(v, c.normal);
   if constexpr (may_grow) vn -= growth;
   if (vn * side > 0) vn = 0;
@@ -69,7 +70,7 @@ Impact collide(const CollidingPair& pair, const Restitution& restitution) {
   out.impulse = c.normal * (-(1 + epsilon) * vn / mass);
   out.energy_change = -0.5 * (1 - epsilon * epsilon) * (vn * vn) / mass;
   if constexpr (may_grow) {
-    if (growth != 0) {
+    if (growth > 0) {
       out.normal_velocity += growth;
       out.growth_work = -(1 + epsilon) * vn / mass * growth;
       out.energy_change += out.growth_work;
@@ -80,9 +81,28 @@ Impact collide(const CollidingPair& pair, const Restitution& restitution) {
     out.impulse += t.impulse;
     out.energy_change += t.energy_change;
   }
+  // From the centre to the contact, of spheres: less n and plus n by their radii.
+  const double radius_first = scale * body_first.radius, radius_second = scale * body_second.radius;
+  const double spin_first = body_first.inverse_inertia * radius_first,
+               spin_second = body_second.inverse_inertia * radius_second;
+  Vec3d twist;
+  if constexpr (surface == Surface::rough_sphere) {
+    const Vec3d slip = (v - c.normal * dot(v, c.normal)) -
+                       cross(w_first * radius_first + w_second * radius_second, c.normal);
+    const double of_slip = mass + (spin_first * radius_first + spin_second * radius_second);
+    const double beta = restitution.beta;
+    const Vec3d along = slip * (-(1 + beta) / of_slip);
+    twist = cross(c.normal, along);
+    out.impulse += along;
+    out.energy_change -= 0.5 * (1 - beta * beta) * dot(slip, slip) / of_slip;
+  }
   out.v_first = v_first + out.impulse * body_first.inverse_mass;
   out.v_second = v_second - out.impulse * body_second.inverse_mass;
-  if constexpr (!turns) return out;
+  if constexpr (are_spheres) {
+    out.w_first = w_first - twist * spin_first;
+    out.w_second = w_second - twist * spin_second;
+    return out;
+  }
   out.w_first =
       w_first + cross(c.u_first, out.impulse) * (body_first.inverse_inertia * c.arm_first);
   out.w_second =
@@ -94,5 +114,6 @@ template Impact collide<Surface::smooth>(const CollidingPair&, const Restitution
 template Impact collide<Surface::rough>(const CollidingPair&, const Restitution&);
 template Impact collide<Surface::wide>(const CollidingPair&, const Restitution&);
 template Impact collide<Surface::sphere>(const CollidingPair&, const Restitution&);
+template Impact collide<Surface::rough_sphere>(const CollidingPair&, const Restitution&);
 
 }  // namespace needlework

@@ -26,14 +26,16 @@ struct CollidingPair {
   const kernels::ContactGeometry& contact;
   int side;           ///< sign of r12 . (u1 x u2) before the contact; 1 for rods
   double growth = 0;  ///< how fast growth brings surfaces of finite width together [L / time]
+  double scale = 1;   ///< of the radii, where bodies grow
 };
 
 /// What needs a rule of its own.
 enum class Surface {
-  smooth,  ///< beta = -1
-  rough,   ///< any beta
-  wide,    ///< smooth rods of finite width, whose normal need not be normal to the directors
-  sphere   ///< smooth spheres, which nothing turns
+  smooth,       ///< beta = -1
+  rough,        ///< any beta
+  wide,         ///< smooth rods of finite width, whose normal need not be normal to the directors
+  sphere,       ///< smooth spheres, which nothing turns
+  rough_sphere  ///< spheres and any beta
 };
 
 /// Velocities and impulse after a collision of two needles. They must approach, V_n side < 0; if
@@ -42,6 +44,8 @@ enum class Surface {
 /// has its own inertia; at the caps of rods the inertia counts by |u x n|^2 < 1. Surfaces that
 /// growth brings together at G approach at V_n - G, of which epsilon reverses a part, so that
 /// V_n becomes G + epsilon (G - V_n).
+/// Rough spheres: Huthmann, Zippelius, Phys. Rev. E 56, R6275 (1997); V_n does not depend on their
+/// spins.
 template <Surface surface>
 Impact collide(const CollidingPair& pair, const Restitution& restitution);
 

@@ -21,9 +21,9 @@ namespace needlework {
 ///   `never_overlap`: bodies never pass through each other, so that a lost contact leaves an
 ///     overlap, which first_contact() reports;
 ///   `mixes`: of some pairs Pair::distance is 0, which are two thin needles;
-///   `surface`: the rule of collisions for beta = -1, and whether there are others
-///     (`may_be_rough`);
-///   `turns`: bodies have a rotation, which collisions change;
+///   `surface`: the rule of collisions for beta = -1, and that for others (`rough`), which is the
+///     same where there are none;
+///   `has_axes`: bodies are needles or rods, or there may be some among them;
 ///   `slides`: bodies may slide on each other (src/physics/sliding_contact.h).
 ///
 /// All are pure functions of the pair. They do not depend on when they are called, on the search or
@@ -47,8 +47,8 @@ concept ContactLaw = requires(const C& contact, const typename C::Pair& pair, do
   { C::never_overlap } -> std::convertible_to<bool>;
   { C::mixes } -> std::convertible_to<bool>;
   { C::surface } -> std::convertible_to<Surface>;
-  { C::may_be_rough } -> std::convertible_to<bool>;
-  { C::turns } -> std::convertible_to<bool>;
+  { C::rough } -> std::convertible_to<Surface>;
+  { C::has_axes } -> std::convertible_to<bool>;
   { C::slides } -> std::convertible_to<bool>;
   { contact.first_contact(pair, time, time, spent) } -> std::same_as<kernels::Contact>;
   { contact.gap(pair, elapsed) } -> std::convertible_to<double>;
@@ -62,8 +62,8 @@ class NeedleContact {
  public:
   using Pair = kernels::Pair;
   static constexpr bool has_distance = false, never_overlap = false, mixes = false;
-  static constexpr Surface surface = Surface::smooth;
-  static constexpr bool may_be_rough = true, turns = true, slides = false;
+  static constexpr Surface surface = Surface::smooth, rough = Surface::rough;
+  static constexpr bool has_axes = true, slides = false;
 
   explicit NeedleContact(const Accuracy& accuracy) : accuracy_(accuracy) {}
   const Accuracy& accuracy() const { return accuracy_; }
@@ -93,7 +93,8 @@ class RodContact {
   using Pair = kernels::RodPair;
   static constexpr bool has_distance = true, never_overlap = true, mixes = false;
   static constexpr Surface surface = Surface::wide;
-  static constexpr bool may_be_rough = false, turns = true, slides = false;
+  static constexpr Surface rough = Surface::rough_sphere;  ///< of two spheres; others are smooth
+  static constexpr bool has_axes = true, slides = false;
 
   explicit RodContact(const Accuracy& accuracy) : accuracy_(accuracy) {}
   const Accuracy& accuracy() const { return accuracy_; }
@@ -117,11 +118,11 @@ class RodContact {
 
 static_assert(ContactLaw<RodContact>);
 
-/// The contact of spheres, in gases of spheres alone: that of rods, without axes and rotation.
+/// The contact of spheres, in gases of spheres alone: that of rods, without axes.
 class SphereContact : public RodContact {
  public:
   static constexpr Surface surface = Surface::sphere;
-  static constexpr bool turns = false;
+  static constexpr bool has_axes = false;
 
   using RodContact::RodContact;
 
@@ -152,8 +153,9 @@ class MixedContact {
 
  public:
   static constexpr bool has_distance = true, never_overlap = true, mixes = true;
-  static constexpr Surface surface = Surface::wide;  ///< of pairs with a distance
-  static constexpr bool may_be_rough = true, turns = true, slides = false;
+  /// Of pairs with a distance; thin ones may be rough, too.
+  static constexpr Surface surface = Surface::wide, rough = Surface::rough_sphere;
+  static constexpr bool has_axes = true, slides = false;
 
   explicit MixedContact(const Accuracy& accuracy) : thin_(accuracy), wide_(accuracy) {}
   const Accuracy& accuracy() const { return thin_.accuracy(); }

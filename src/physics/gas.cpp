@@ -164,11 +164,20 @@ kernels::BodyState Gas::present(Id id, const Record& record, Time now) const {
   return NeedleTrajectory(*this, id, record, slide, clock.difference(now, record.time)).at(0);
 }
 
+void set_rotation(kernels::Flight& flight, const Body& body) {
+  if (body.has_axis()) {
+    kernels::set_rotation(flight);
+  } else {
+    flight.p = {};
+    flight.omega = 0;
+  }
+}
+
 namespace {
 
 // With the centre wrapped, and the velocity of that image.
 [[gnu::always_inline]] inline Shift renew_with(Gas& gas, Needle i, Time now,
-                                               const kernels::BodyState& state, double extent,
+                                               const kernels::BodyState& state, const Body& body,
                                                const Wrapped& wrapped, const Vec3d& velocity) {
   Record& record = gas.records[i];
   const auto& [place, boxes] = wrapped;
@@ -176,28 +185,28 @@ namespace {
   record.flight.r = vector_of(place);
   record.flight.u = normalised(state.u);
   record.flight.v = velocity;
-  record.flight.w = project_out(state.w, record.flight.u);
-  set_rotation(record.flight);
+  record.flight.w = turned(body, state.w, record.flight.u);
+  set_rotation(record.flight, body);
   record.time = now;
-  record.renewal = renewal_time(gas, record, extent);
+  record.renewal = renewal_time(gas, record, body.extent());
   record.touch_count = 0;
   ++record.serial;
   return shift_of(boxes);
 }
 
 [[gnu::noinline]] Shift renew_in_rows(Gas& gas, Needle i, Time now, const kernels::BodyState& state,
-                                      double extent) {
+                                      const Body& body) {
   const Box box = gas.box_at(now);
   const Wrapped wrapped = box.wrap(to_array(state.r));
-  return renew_with(gas, i, now, state, extent, wrapped,
-                    state.v - box.image(wrapped.boxes).velocity);
+  return renew_with(gas, i, now, state, body, wrapped, state.v - box.image(wrapped.boxes).velocity);
 }
 
 }  // namespace
 
-Shift renew_record(Gas& gas, Needle i, Time now, const kernels::BodyState& state, double extent) {
-  if (gas.shear) return renew_in_rows(gas, i, now, state, extent);
-  return renew_with(gas, i, now, state, extent, gas.box.wrap_at_rest(to_array(state.r)), state.v);
+Shift renew_record(Gas& gas, Needle i, Time now, const kernels::BodyState& state,
+                   const Body& body) {
+  if (gas.shear) return renew_in_rows(gas, i, now, state, body);
+  return renew_with(gas, i, now, state, body, gas.box.wrap_at_rest(to_array(state.r)), state.v);
 }
 
 }  // namespace needlework

@@ -199,11 +199,19 @@ inline constexpr std::int32_t most_boxes = 0x7fffffff - (1 << 11);
 /// modulo 2^32.
 Shift add_boxes(const Gas& gas, Needle i, const Boxes& boxes);
 
-/// Replaces the record of needle i, `extent` from end to end [L], by a state at `now`: the centre
-/// is wrapped into the box, the director is normalised, w is made normal to it, and touches are
+/// Replaces the record of needle i by a state at `now`: the centre is wrapped into the box, the
+/// director is normalised, w is made normal to it unless the body is a sphere, and touches are
 /// forgotten. Returns the number of boxes by which the centre was wrapped. Throws
 /// InvalidStateError, and changes nothing, if that makes too many; see add_boxes().
-Shift renew_record(Gas& gas, Needle i, Time now, const kernels::BodyState& state, double extent);
+Shift renew_record(Gas& gas, Needle i, Time now, const kernels::BodyState& state, const Body& body);
+/// What of an angular velocity a body with this director can have: a rod none about its axis, a
+/// rough sphere all, a smooth one nothing.
+inline Vec3d turned(const Body& body, const Vec3d& w, const Vec3d& director) {
+  if (body.has_axis()) return project_out(w, director);
+  return body.turns() ? w : Vec3d{};
+}
+/// Fills in how the director turns by w, which is normal to it; that of a sphere is at rest.
+void set_rotation(kernels::Flight& flight, const Body& body);
 /// Enters a collision that two needles have just had, which leaves them on this side of each other,
 /// into their records; `shift` is that of the records.
 void part(Gas& gas, Needle first, Needle second, const Shift& shift, int side);

@@ -59,9 +59,9 @@ double mean_free_time(const Composition& composition, double volume,
       const double flight = t_a.t_tr / first.mass + t_b.t_tr / second.mass;
       // Of the tips, whose distance from the centre is half a length.
       const double turn_a =
-          first.turns() ? t_a.t_rot / first.inertia() * (first.length * first.length) : 0;
+          first.has_axis() ? t_a.t_rot / first.inertia() * (first.length * first.length) : 0;
       const double turn_b =
-          second.turns() ? t_b.t_rot / second.inertia() * (second.length * second.length) : 0;
+          second.has_axis() ? t_b.t_rot / second.inertia() * (second.length * second.length) : 0;
       // The speed at which points at these distances from the centres approach, in lengths.
       const auto speed = [&](double square_a, double square_b) {
         return std::sqrt(flight + (turn_a * square_a + turn_b * square_b));

@@ -25,8 +25,8 @@ class NeedleModel {
   /// Whether the model simulates these effects, all of them and no other one.
   static constexpr bool covers(const Effects& effects) {
     if (Law::has_distance != effects.width || has_sliding != effects.sliding) return false;
-    if (Law::turns == effects.spheres || Law::mixes != effects.mixed) return false;
-    if (effects.rough && !Law::may_be_rough) return false;
+    if (Law::has_axes == effects.spheres || Law::mixes != effects.mixed) return false;
+    if (effects.rough && Law::rough == Law::surface) return false;
     if (effects.growth && !Law::has_distance) return false;
     if (effects.contact_time && has_sliding) return false;  // both replace the same bounces
     // Contacts that last are of images at rest, and carry momentum besides flights and collisions.
@@ -90,7 +90,7 @@ class NeedleModel {
   }
   const Law& contact() const { return contact_; }
   double time_apart(Needle a, Needle b, const Shift& shift) const {
-    if constexpr (!Law::turns) {
+    if constexpr (!Law::has_axes) {
       if (part_for_good(a, b, shift)) return std::numeric_limits<double>::infinity();
     }
     return contact_.time_apart(pair(a, gas_.records[a], b, gas_.records[b], shift));
@@ -110,14 +110,16 @@ class NeedleModel {
                   v_second = gas_.shear ? its_velocity + past : its_velocity;
       CollidingPair both{v_first, first.w, v_second, second.w, body(i), body(j), contact, side};
       if constexpr (Law::has_distance) {
-        if (gas_.growth) both.growth = closing_by_growth(i, j, contact, now);
+        if (gas_.growth) {
+          both.growth = closing_by_growth(i, j, contact, now);
+          both.scale = gas_.growth->scale_at(gas_.clock, now);
+        }
       }
       const auto in_frames_of_records = [&](Impact impact) {
         if (gas_.shear) impact.v_second = impact.v_second - past;
         return outcome(impact);
       };
-      if (elastic) return in_frames_of_records(impact<Law>(both, {}));
-      return in_frames_of_records(impact<Law>(both, restitution(a, b)));
+      return in_frames_of_records(impact<Law>(both, restitution(a, b), elastic));
     } else {
       const CollidingPair both{first.v, first.w, second.v, second.w,
                                body(i), body(j), contact,  side};
@@ -130,7 +132,7 @@ class NeedleModel {
     return {motion.centre(), motion.velocity(), motion.director(), motion.angular_velocity()};
   }
   Shift renew(Needle i, Time now, const kernels::BodyState& state) const {
-    return renew_record(gas_, i, now, state, extent(i));
+    return renew_record(gas_, i, now, state, body(i));
   }
 
  private:
@@ -154,14 +156,18 @@ class NeedleModel {
     return gas_.growth->relative_rate(scale) * (distance - dot(contact.normal, arms));
   }
   template <ContactLaw Touching>
-  [[gnu::always_inline]] static Impact impact(const CollidingPair& pair, const Restitution& rule) {
+  [[gnu::always_inline]] static Impact impact(const CollidingPair& pair, const Restitution& rule,
+                                              bool elastic) {
     if constexpr (Touching::mixes) {
       const bool thin = pair.body_first.radius == 0 && pair.body_second.radius == 0;
-      return thin ? impact<NeedleContact>(pair, rule) : impact<RodContact>(pair, rule);
+      return thin ? impact<NeedleContact>(pair, rule, elastic)
+                  : impact<RodContact>(pair, rule, elastic);
     }
-    if (Touching::may_be_rough && rule.is_rough())
-      return needlework::collide<Surface::rough>(pair, rule);
-    return needlework::collide<Touching::surface>(pair, rule);
+    // Within the contact time needles are smooth, too; spheres stay as rough as they are.
+    if (Touching::rough != Touching::surface && rule.is_rough() &&
+        !(elastic && Touching::rough == Surface::rough))
+      return needlework::collide<Touching::rough>(pair, elastic ? Restitution{1, rule.beta} : rule);
+    return needlework::collide<Touching::surface>(pair, elastic ? Restitution{} : rule);
   }
   /// Whether two spheres with records of one time surely fly apart, by numbers in double: most that
   /// have just collided.
@@ -181,11 +187,6 @@ class NeedleModel {
     // Far more than what rounds these places, and than what rounds the product.
     const double least = 0x1p-20 * (gas_.radius(a) + gas_.radius(b)) + gas_.touch_tolerance();
     return dot(r, v) > least * speeds;
-  }
-  /// From end to end. [L]
-  double extent(Needle i) const {
-    if constexpr (has_effects) return body(i).extent();
-    return 1;
   }
   Vec3d velocity(const Record& record, Time now) const {
     return gas_.falls ? gas_.motion_from(record, now).velocity() : record.flight.v;

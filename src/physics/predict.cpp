@@ -178,7 +178,7 @@ FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double h
                                     just_collided);
   for (const auto& [flight, half] : {std::pair(&a, pair.half_first), {&b, pair.half_second}}) {
     if (half > 0) continue;
-    flight->w = {};  // of a sphere, which does not turn
+    flight->w = {};  // of a sphere, whose director marks nothing
     set_rotation(*flight);
   }
   pair.distance = 0.5 * (width_a + width_b);

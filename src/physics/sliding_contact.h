@@ -40,8 +40,8 @@ class SlidingContact {
  public:
   using Pair = SlidingPair;
   static constexpr bool has_distance = false, never_overlap = false, mixes = false;
-  static constexpr Surface surface = Surface::smooth;
-  static constexpr bool may_be_rough = false, turns = true, slides = true;
+  static constexpr Surface surface = Surface::smooth, rough = surface;
+  static constexpr bool has_axes = true, slides = true;
 
   explicit SlidingContact(const Accuracy& accuracy) : free_(accuracy) {}
   const Accuracy& accuracy() const { return free_.accuracy(); }

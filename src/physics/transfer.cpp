@@ -20,10 +20,7 @@ void transfer(Archive& archive, RecordedTouch& touch) {
 }
 
 namespace kernels {
-void transfer(Archive& archive, Flight& flight) {
-  archive(flight.r, flight.v, flight.u, flight.w);
-  if (archive.reads()) set_rotation(flight);
-}
+void transfer(Archive& archive, Flight& flight) { archive(flight.r, flight.v, flight.u, flight.w); }
 }  // namespace kernels
 
 }  // namespace needlework

@@ -14,7 +14,7 @@ void transfer(Archive& archive, Time& time);
 void transfer(Archive& archive, RecordedTouch& touch);
 
 namespace kernels {
-/// What follows from other members is computed again.
+/// Without p and omega, which follow from the others and the body (set_rotation() of a gas).
 void transfer(Archive& archive, Flight& flight);
 }  // namespace kernels
 

@@ -115,6 +115,7 @@ void add_run(py::module_& module) {
       .def("energy_budget", &Run::energy_budget)
       .def("rod_totals", &Run::rod_totals)
       .def("sliding_contacts", &Run::sliding_contacts)
+      .def("growth", &Run::growth)
       .def("stress", &Run::stress)
       .def("flow", &Run::flow)
       .def("box", &Run::box)

@@ -273,7 +273,8 @@ py::tuple Run::state() {
   });
   const OwnBodies& bodies = state.own_bodies;
   py::object own = py::none();
-  if (!bodies.empty())
+  // Bodies that grow are as their species say now, unless these differ.
+  if (run_->simulation().composition().has_own_sizes())
     own = py::make_tuple(read_only(bodies.length), read_only(bodies.diameter),
                          read_only(bodies.mass), read_only(bodies.inertia));
   return py::make_tuple(read_only(state.position), read_only(state.velocity),
@@ -359,6 +360,12 @@ py::object Run::sliding_contacts() {
   require_idle();
   const auto contacts = run_->simulation().sliding_contacts();
   return contacts ? py::object(numbers_of(*contacts)) : py::none();
+}
+
+py::object Run::growth() {
+  require_idle();
+  const auto growth = run_->simulation().growth();
+  return growth ? py::object(numbers_of(*growth)) : py::none();
 }
 
 py::object Run::flow() {

@@ -71,6 +71,7 @@ class Run {
   pybind11::dict energy_budget();
   pybind11::dict rod_totals();
   pybind11::object sliding_contacts();
+  pybind11::object growth();
   pybind11::object stress();
   /// Under uniform shear: slide, rate, and velocities beside the flow; else None.
   pybind11::object flow();

@@ -173,6 +173,7 @@ Json frames_of(const std::string& path, const BodySizes& sizes, std::span<const 
     const auto time = file.time(frame);
     if (time) one["time"] = *time;
     const State state = file.read(frame);
+    if (state.scale) one["scale"] = *state.scale / *first.scale;
     const auto surfaces = picture::surfaces_of(walls, state, time);
     picture::Region drawn = region_of_layer(state, surfaces);
     if (later) include(drawn, *later, state);

@@ -170,8 +170,9 @@ Bodies bodies_of(const io::Contents& contents) {
 // What the observables of a mixture are of: each species, or each two of them.
 enum class Of { all, species, pairs };
 Of what_of(const std::string& group) {
-  constexpr std::array of_all = {"totals", "theory",   "species",       "walls",
-                                 "rods",   "contacts", "energy_budget", "centre_of_mass"};
+  constexpr std::array of_all = {"totals",        "theory",        "species", "walls",
+                                 "rods",          "contacts",      "growth",  "contact_network",
+                                 "energy_budget", "centre_of_mass"};
   if (std::ranges::find(of_all, group) != of_all.end()) return Of::all;
   const bool of_pairs =
       group == "pair_correlation" || group == "structure_factor" || group == "collision_statistics";

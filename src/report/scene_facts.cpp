@@ -98,7 +98,7 @@ Json walls_of(const Scene& scene) {
 }
 
 Json driving_of(const Scene::Driving& driving) {
-  Json out = {{"kicks", nullptr}, {"andersen", nullptr}};
+  Json out = {{"kicks", nullptr}, {"andersen", nullptr}, {"growth", nullptr}};
   if (const auto& kicks = driving.kicks) {
     out["kicks"] = {{"every", kicks->every},
                     {"translational", kicks->translational},
@@ -106,6 +106,11 @@ Json driving_of(const Scene::Driving& driving) {
   }
   if (const auto& andersen = driving.andersen) {
     out["andersen"] = {{"rate", andersen->rate}, {"temperature", andersen->temperature}};
+  }
+  if (const auto& growth = driving.growth) {
+    out["growth"] = {{"rate", growth->rate},
+                     {"until_packing", optional(growth->until_packing)},
+                     {"until_pressure", optional(growth->until_pressure)}};
   }
   return out;
 }

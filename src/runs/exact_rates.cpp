@@ -68,7 +68,7 @@ bool stays_at_temperature(const Scene& scene, double t) {
     return !wall.motion && (wall.temperature ? *wall.temperature == t : wall.epsilon == 1);
   };
   const Scene::Driving& driving = scene.driving;
-  return !has_gravity(scene) && !driving.kicks &&
+  return !has_gravity(scene) && !driving.kicks && !driving.growth &&
          !(driving.andersen && driving.andersen->temperature != t) &&
          std::ranges::all_of(scene.walls, leaves_it);
 }

@@ -156,7 +156,8 @@ std::vector<theory::Temperatures> temperatures_by_species(const LoadedScene& loa
     const double count = static_cast<double>(species.count);
     theory::Temperatures& of = out[members.species[i]];
     of.t_tr += body.mass * square(velocity_of(state, loaded.scene, i)) / (3 * count);
-    of.t_rot += body.inertia * square(state.angular_velocity[i]) / (2 * count);
+    const int rotations = std::max(2, species.rotations());  // smooth spheres do not turn
+    of.t_rot += body.inertia * square(state.angular_velocity[i]) / (rotations * count);
   }
   return out;
 }

@@ -6,6 +6,7 @@
 
 #include "src/composition/total_mass.h"
 #include "src/observe/completion.h"
+#include "src/scene/growth_plan.h"
 
 namespace needlework::runs {
 namespace {
@@ -38,7 +39,20 @@ Pace::Pace(const Simulation& simulation, const Scene& scene, const Scene::Until&
 
 double Pace::fraction_of(const Totals& now, double elapsed) const {
   const double count = static_cast<double>(scene_.needles.count);
-  return completed_fraction(until_, initial_, now, count, elapsed);
+  return std::max(completed_fraction(until_, initial_, now, count, elapsed), fraction_grown());
+}
+
+// By sizes and by the logarithm of the pressure, which collisions of bodies that are about to jam
+// raise evenly.
+double Pace::fraction_grown() const {
+  const auto now = simulation_.growth();
+  if (!now) return 0;
+  const GrowthPlan plan = growth_plan(scene_, simulation_.composition(), simulation_.box());
+  const double grown = plan.start < 1 ? (now->scale - plan.start) / (1 - plan.start)
+                                      : (now->scale - 1) / (plan.largest - 1);
+  const auto& most = scene_.driving.growth->until_pressure;
+  const double pressed = most && now->pressure > 1 ? std::log(now->pressure) / std::log(*most) : 0;
+  return std::clamp(std::max(grown, pressed), 0.0, 1.0);
 }
 
 Progress Pace::after(double elapsed) const {
@@ -50,6 +64,7 @@ Progress Pace::after(double elapsed) const {
   const double done = std::max(progress.fraction - fraction_before_, 0.0);
   progress.left = elapsed * ((1 - progress.fraction) / done);  // infinite if nothing is done yet
   progress.rate = static_cast<double>(progress.now.collisions - collisions_before_) / elapsed;
+  progress.growth = simulation_.growth();
   progress.energy_drift = simulation_.energy_drift();
   progress.momentum_drift = momentum_drift(initial_, progress.now, scene_);
   return progress;

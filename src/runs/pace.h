@@ -23,6 +23,7 @@ class Pace {
 
  private:
   double fraction_of(const Totals& now, double elapsed) const;
+  double fraction_grown() const;
 
   const Simulation& simulation_;
   const Scene& scene_;

@@ -96,7 +96,7 @@ void PreparedRun::observe() {
   const bool may_differ = composition.is_mixture() || composition.has_own_sizes();
   if ((may_differ && !scene_.output.observables.empty()) || scene_.output.size_classes) {
     State state = simulation_.copy();
-    species = {std::move(state.id), std::move(state.species), std::move(state.own_bodies)};
+    species = {std::move(state.id), std::move(state.species), simulation_.own_bodies_at_start()};
   }
   observation_.emplace(scene_, cooling_theory(scene_, initial_, simulation_, drawn_),
                        std::move(species));

@@ -16,6 +16,11 @@ std::string progress_text(const Progress& progress) {
   const Totals& now = progress.now;
   std::string text =
       fmt::format("{} collisions, {:.3g}/s, time {:.4g}", now.collisions, progress.rate, now.time);
+  if (const auto& growth = progress.growth) {
+    text += fmt::format(", packing {:.4f}", growth->packing_fraction);
+    if (!std::isnan(growth->pressure))
+      text += fmt::format(", P V / (N T) {:.3g}", growth->pressure);
+  }
   if (now.energy < 0.999 * progress.initial.energy) {
     text += fmt::format(", E/E(0) = {:.3g}", now.energy / progress.initial.energy);
   }

@@ -12,7 +12,8 @@ namespace needlework::runs {
 /// more.
 std::string progress_text(double fraction, double left, std::string_view more);
 
-/// The line of a run: share done, time left, collisions, their rate, time, energy, the age of the
+/// The line of a run: share done, time left, collisions, their rate, time, packing and pressure of
+/// bodies that grow, energy, the age of the
 /// last checkpoint, and the drift of energy and momentum. What matters most comes first, as narrow
 /// terminals cut it off.
 std::string progress_text(const Progress& progress);

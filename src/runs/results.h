@@ -18,6 +18,7 @@ void for_each_result(Visit&& visit) {
   visit(ResultKind{"totals", "Sums over all needles at one instant"}, Totals{});
   visit(ResultKind{"species", "Needles of one species at one instant"}, SpeciesTotals{});
   visit(ResultKind{"rods", "Room and pressure of rods of finite width"}, observe::RodTotals{});
+  visit(ResultKind{"growth", "Sizes, packing and pressure of bodies that grow"}, GrowthTotals{});
   visit(ResultKind{"walls", "Hits on one wall since the start"}, WallTotals{});
   visit(ResultKind{"contacts", "Contacts of needles that slide on each other, since the start"},
         SlidingContacts{});

@@ -10,7 +10,9 @@ observe::RodTotals rod_totals(const Scene& scene, const Simulation& simulation) 
   const observe::Pressure pressure(scene);
   const observe::PressureSums now = observe::pressure_sums(
       simulation.time(), simulation.t_tr_integral(), simulation.virial(), simulation.wall_totals());
-  return {.packing_fraction = simulation.composition().packing_fraction(volume),
+  const auto growth = simulation.growth();
+  return {.packing_fraction =
+              growth ? growth->packing_fraction : simulation.composition().packing_fraction(volume),
           .virial = now.virial,
           .pressure = pressure.between({}, now),
           .pressure_meaning = pressure.meaning()};

@@ -289,6 +289,7 @@ void RunDriver::sample(bool series, bool frame) {
         species.t_tr_integral = simulation_.t_tr_integral();
       species.contacts = simulation_.sliding_contacts().value_or(SlidingContacts{});
       species.stress = simulation_.stress_sums().value_or(StressSums{});
+      species.growth = simulation_.growth().value_or(GrowthTotals{});
       // Of a uniform flow, observables see what is beside it.
       if (!state.peculiar_velocity.empty()) state.velocity.swap(state.peculiar_velocity);
       const auto values = observation->sample(state, totals, species);

@@ -11,12 +11,13 @@ namespace needlework::runs {
 
 /// How far a run is.
 struct Progress {
-  double elapsed = 0;       ///< wall time in which this process has run it [s]
-  double fraction = 0;      ///< share done, in [0, 1]
-  double left = 0;          ///< wall time to its end at the pace so far, infinite if not known [s]
-  double rate = 0;          ///< collisions in this process per second of wall time
-  Totals now, initial;      ///< `initial`: at the start of the run
-  double energy_drift = 0;  ///< see Simulation::energy_drift()
+  double elapsed = 0;   ///< wall time in which this process has run it [s]
+  double fraction = 0;  ///< share done, in [0, 1]
+  double left = 0;      ///< wall time to its end at the pace so far, infinite if not known [s]
+  double rate = 0;      ///< collisions in this process per second of wall time
+  Totals now, initial;  ///< `initial`: at the start of the run
+  std::optional<GrowthTotals> growth = {};  ///< where bodies grow
+  double energy_drift = 0;                  ///< see Simulation::energy_drift()
   double momentum_drift = 0;  ///< change of the total momentum, over sqrt(N m T_tr); NaN where
                               ///< walls or a thermostat change it
   /// Wall time since the last checkpoint, or since this process has begun; none if none is written

@@ -13,7 +13,7 @@ io::RunInfo run_info(const Simulation& simulation, const Scene& scene) {
           .epoch_length = simulation.epoch_length(),
           .accuracy = accuracy_name(scene.engine),
           .species = simulation.species(),
-          .own_bodies = simulation.own_bodies(),
+          .own_bodies = simulation.own_bodies_at_start(),
           .has_kinds = !simulation.sources().empty() || simulation.sliding_contacts()};
 }
 

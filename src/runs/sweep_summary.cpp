@@ -152,6 +152,18 @@ void add_budget(const Scene& scene, std::span<const Run> runs, PointSummary& poi
   }
 }
 
+// Sizes, packing and pressure of bodies that grow, and their contacts.
+void add_growth(std::span<const Run> runs, PointSummary& point) {
+  for (const auto& [name, value] : runs.front().growth) {
+    add_result(name, runs, point, [&](const Run& run) -> std::optional<double> {
+      const auto found =
+          std::ranges::find(run.growth, name, &std::pair<std::string, double>::first);
+      if (found == run.growth.end()) return {};
+      return found->second;
+    });
+  }
+}
+
 void add_estimates(PointSummary& point, std::span<const Run> runs, const Scene& scene) {
   Totals::for_each_member([&](const Described& total, auto member) {
     if constexpr (std::is_arithmetic_v<std::decay_t<decltype(Totals{}.*member)>>) {
@@ -165,6 +177,7 @@ void add_estimates(PointSummary& point, std::span<const Run> runs, const Scene& 
   for (const Scene::WallSide& side : scene.wall_sides())
     add_wall({.axis = static_cast<int>(side.axis), .high = side.is_high}, runs, point);
   add_budget(scene, runs, point);
+  add_growth(runs, point);
   point.times = common_times(runs);
   Totals::for_each_sum([&](const Described& sum, auto member) {
     const auto numbers_of = [member](const Totals& sample) {

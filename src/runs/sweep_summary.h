@@ -65,7 +65,8 @@ std::vector<PointSummary> summarise(const Grid& grid, const FinishedRun& finishe
 ///                 standard_error [P]; of each wall hits_z_low, impulse_z_low, pressure_z_low
 ///                 and budget_z_low, and with walls or driving budget_pairs, budget_thermostat,
 ///                 budget_kicks, budget_gravity, budget_shear,
-///                 budget_growth and budget_cooling
+///                 budget_growth and budget_cooling; where bodies grow growth_NAME and
+///                 network_NAME of the numbers of /series/growth and /series/contact_network
 ///   /series       a group for each point, 00000, 00001, ...: time [S], and the sums over all
 ///                 needles, each a group with mean and standard_error [S], [S][3] of vectors
 ///

@@ -80,6 +80,16 @@ double k_of(const Scene& scene, const Species& body, std::size_t n, const Bodies
   return is_k_said || body.diameter == 0 ? body.k : homogeneous_k(body.length, body.diameter);
 }
 
+// Of a rough sphere. What the scene says, or leaves to the default, has all digits.
+void adopt_inertia_of_sphere(const Scene& scene, Species& body, std::size_t n, double q) {
+  const double expected = inertia_of(q, body.mass, body.diameter);
+  if (body.given_inertia)
+    return require_agreement(scene, "inertia", n, *body.given_inertia, expected);
+  const Species made = scene.composition()[n < scene.species.size() ? n : 0];
+  if (made.q > 0 && agrees(made.q, q)) return;
+  body.given_inertia = expected;
+}
+
 // Whether bodies are fixed, which files say by an infinite mass. Where the scene is silent, they
 // may overlap each other, as they are where they are.
 bool adopt_fixed(const Scene& scene, Species& body, std::size_t n, bool expected) {
@@ -106,8 +116,12 @@ Species completed(const Scene& scene, Species body, std::size_t n, const Bodies&
       require_agreement(scene, key, n, body.*value, expected);
     body.*value = expected;
   }
-  if (body.turns()) body.k = k_of(scene, body, n, bodies);
-  body.given_inertia.reset();
+  if (body.has_axis()) {
+    body.k = k_of(scene, body, n, bodies);
+    body.given_inertia.reset();
+  } else if (n < bodies.q.size() && bodies.q[n] > 0) {
+    adopt_inertia_of_sphere(scene, body, n, bodies.q[n]);
+  }
   return body;
 }
 
@@ -234,24 +248,64 @@ void adopt_bodies(Scene& scene, const Bodies& bodies) {
   }
 }
 
+// Rows that say of each body what its species says, as files of bodies that grow have them.
+static void drop_equal_rows(State& state) {
+  const Bodies& bodies = state.bodies;
+  const auto are_equal = [&](const std::vector<double>& rows, const std::vector<double>& known) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const std::size_t species = state.species.empty() ? 0 : state.species[i];
+      if (species >= known.size() || rows[i] != known[species]) return false;
+    }
+    return true;
+  };
+  const OwnBodies& own = state.own_bodies;
+  if (are_equal(own.length, bodies.length) && are_equal(own.diameter, bodies.diameter) &&
+      are_equal(own.mass, bodies.mass))
+    state.own_bodies = {};
+}
+
+// Bodies with an axis do not turn about it. A file that does not say which have one is checked
+// here.
+static void require_no_spin_about_axes(const Scene& scene, const State& state) {
+  constexpr double tolerance = 1e-6;
+  const Composition composition = scene.composition();
+  for (std::size_t i = 0; i < state.angular_velocity.size(); ++i) {
+    const std::size_t species = state.species.empty() ? 0 : state.species[i];
+    if (species >= composition.size() || !composition[species].has_axis()) continue;
+    const auto &u = state.orientation[i], &w = state.angular_velocity[i];
+    const double along = u[0] * w[0] + u[1] * w[1] + u[2] * w[2],
+                 size = std::hypot(w[0], w[1], w[2]);
+    if (std::abs(along) <= tolerance * size) continue;
+    throw InputError(fmt::format(
+        "{}: needle {}: angular velocity ({}, {}, {}), of which {:.4g} is along its director: "
+        "expected none, within {} of its length",
+        place_of(scene, "initial.file", source_of_state(scene)), state.id.empty() ? i : state.id[i],
+        w[0], w[1], w[2], along, tolerance));
+  }
+}
+
 void adopt_state(Scene& scene, State& state) {
+  if (state.scale) drop_equal_rows(state);
   if (state.own_bodies.empty()) require_nothing_drawn(scene, state.bodies);
   adopt_bodies(scene, state.bodies);
   require_rules(scene, Aspect::species | Aspect::bodies | Aspect::pairs | Aspect::effects);
   adopt_count_and_box(scene, state);
   if (lacks_numbers(scene, state)) state.own_bodies = all_numbers_of(scene, state);
   adopt_own_bodies(scene, state);
+  if (!scene.initial.file.empty()) require_no_spin_about_axes(scene, state);
   if (scene.places.contains("needles.box")) require_rules(scene, Aspect::room);
 }
 
-Bodies bodies_of(const Composition& composition) {
+Bodies bodies_of(const Composition& composition, double scale) {
   Bodies bodies;
   for (const Species& each : composition.species()) {
     if (composition.is_mixture()) bodies.names.push_back(each.name);
     for (const auto& [key, known, value] : dimensions) {
-      (bodies.*known).push_back(value == &Species::mass ? each.mass_or_infinity() : each.*value);
+      (bodies.*known)
+          .push_back(value == &Species::mass ? each.mass_or_infinity() : each.*value * scale);
     }
-    bodies.k.push_back(each.k);
+    bodies.k.push_back(each.k * (scale * scale));
+    bodies.q.push_back(each.q / (scale * scale));
   }
   return bodies;
 }
@@ -270,7 +324,7 @@ std::string warning_of_unknown_bodies(const Scene& scene, const Bodies& bodies) 
       add_if(!has_none && (bodies.*known).empty() && !is_said(scene, key, n, is_default), key);
     }
     const bool is_k_said = is_said(scene, "k", n, body.k == Species{}.k) ||
-                           is_said(scene, "inertia", n, true) || !body.turns();
+                           is_said(scene, "inertia", n, true) || !body.has_axis();
     add_if(bodies.k.empty() && !is_k_said, "k");
   }
   if (unknown.empty()) return "";

@@ -23,8 +23,9 @@ void require_count(const Scene& scene, std::size_t count);
 /// The part of it that is about the bodies but for their counts.
 void adopt_bodies(Scene& scene, const Bodies& bodies);
 
-/// What a state says of these species: with names, where there are several.
-Bodies bodies_of(const Composition& composition);
+/// What a state says of these species: with names, where there are several; with sizes larger by
+/// this factor of growth.
+Bodies bodies_of(const Composition& composition, double scale = 1);
 
 /// A warning if initial.file does not say all of its bodies, and neither does the scene; else
 /// empty.

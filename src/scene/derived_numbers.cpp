@@ -25,13 +25,10 @@ GasNumbers numbers_of_drawn(const Scene& scene) {
     if (species.fixed) continue;
     const auto count = static_cast<double>(species.count);
     const double per_mass = count / species.mass;
-    out.species.push_back({.length = species.length,
-                           .mass = species.mass,
-                           .k = species.k,
+    out.species.push_back({.mass = species.mass,
+                           .inertia = species.inertia(),
                            .v2 = 3 * species.t_tr * per_mass,
-                           .w2 = species.turns() ? 4 * species.k * species.t_rot /
-                                                       (species.length * species.length) * per_mass
-                                                 : 0,
+                           .w2 = species.w2_at(species.t_rot) * count,
                            .extent = species.extent()});
     out.moves = out.moves || (count > 0 && (species.t_tr > 0 || species.t_rot > 0));
   }
@@ -42,19 +39,17 @@ std::string out_of_range(const GasNumbers& gas) {
   if (!gas.moves) return {};
   double energy = 0, mean_rate = 0;
   for (const SpeciesNumbers& each : gas.species) {
-    const double squared_length = each.length * each.length;
-    energy += 0.5 * each.mass * (each.v2 + squared_length / (2 * each.k) * each.w2);
+    energy += 0.5 * each.mass * (each.v2 + each.inertia / each.mass * each.w2);
     mean_rate += (each.v2 / (each.extent * each.extent) + each.w2) / gas.count;
   }
   // Collisions may give all of the energy to the flight or to the rotation of one needle.
   double speed = 0, rate = 0, rotation = 0;
   for (const SpeciesNumbers& each : gas.species) {
-    const double squared_length = each.length * each.length;
     const double squares = energy / (0.5 * each.mass);
     speed = std::max(speed, squares);
     rate = std::max(rate, squares / (each.extent * each.extent));
-    if (each.length == 0) continue;
-    rotation = std::max(rotation, squares / (squared_length / (2 * each.k)));
+    if (each.inertia == 0) continue;
+    rotation = std::max(rotation, squares / (each.inertia / each.mass));
   }
   const double least = least_square * (gas.has_cooled ? cooled : 1);
   struct Number {

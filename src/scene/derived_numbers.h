@@ -12,9 +12,8 @@ namespace needlework {
 
 /// A species, as far as speeds and energies go.
 struct SpeciesNumbers {
-  double length = 1;      ///< [L]
   double mass = 1;        ///< [m]
-  double k = 6;           ///< m L^2 / (2 I)
+  double inertia = 0;     ///< 0 of those that do not turn [m L^2]
   double v2 = 0, w2 = 0;  ///< sums over all its needles of v^2 and w^2
   double extent = 1;      ///< from end to end [L]
 };

@@ -62,7 +62,7 @@ struct Drawn {
         continue;
       }
       factors.push_back(square(first) > 0 ? std::sqrt(square(s) / square(first)) : 0);
-      weights.push_back(weight(first) > 0 ? weight(s) / weight(first) : 0);  // spheres do not turn
+      weights.push_back(weight(first) > 0 ? weight(s) / weight(first) : 0);  // smooth spheres
       mean_square += static_cast<double>(s.count) / count * (square(s) * weights.back());
     }
   }
@@ -137,12 +137,9 @@ class Velocities {
         flight_(
             members.composition, [](const Species& s) { return 3 * s.t_tr / s.mass; },
             [](const Species& s) { return s.mass; }),
-        // <I w^2 / 2> = t_rot with I = m L^2 / (2 k).
+        // <I w^2 / 2> = t_rot of those with an axis, 1.5 t_rot of rough spheres.
         rotation_(
-            members.composition,
-            [](const Species& s) {
-              return s.turns() ? 4 * s.k * s.t_rot / (s.mass * (s.length * s.length)) : 0;
-            },
+            members.composition, [](const Species& s) { return s.w2_at(s.t_rot); },
             [](const Species& s) { return s.inertia(); }) {}
 
   void draw(NeedleRandom& random, State& state, std::size_t i) const {
@@ -154,7 +151,9 @@ class Velocities {
     state.velocity[i] = random.normal();
     for (double& v : state.velocity[i]) v *= flight;
     const double rotation = scaled(rotation_.factors[species], members_.share_of_inertia(i));
-    state.angular_velocity[i] = normal_part(random.normal(), state.orientation[i]);
+    const Vector spin = random.normal();
+    state.angular_velocity[i] =
+        members_.composition[species].has_axis() ? normal_part(spin, state.orientation[i]) : spin;
     for (double& w : state.angular_velocity[i]) w *= rotation;
   }
   // Makes the total momentum 0, unless fixed bodies take up what it is, and the temperatures those

@@ -35,6 +35,7 @@ Composition enlarged(const Composition& species, double factor) {
     each.length *= factor;
     each.diameter *= factor;
     each.k *= square;
+    each.q /= square;
     each.given_inertia.reset();
     if (each.sizes) {
       Sizes& sizes = *each.sizes;

@@ -24,16 +24,19 @@ inline constexpr auto total_names = [] {
 
 /// What is computed where a scene names it. src/observe/registry.cpp makes them, and does not
 /// compile if it has others.
-inline constexpr std::array<std::string_view, 15> observable_names = {
+inline constexpr std::array<std::string_view, 16> observable_names = {
     "fields",           "profiles",         "flow_order",          "distributions",
     "alignment",        "velocity_moments", "temperature_by_axis", "pair_correlation",
     "structure_factor", "displacement",     "time_correlation",    "collision_statistics",
-    "wall_profiles",    "centre_of_mass",   "pressure_tensor"};
+    "wall_profiles",    "centre_of_mass",   "contact_network",     "pressure_tensor"};
 /// Those that follow needles, in a flow beside it.
 inline constexpr std::array<std::string_view, 2> path_observable_names = {"displacement",
                                                                           "time_correlation"};
 /// For which sums are kept from the start of a run. Sheared scenes always have it.
 inline constexpr std::string_view pressure_tensor_name = observable_names.back();
+
+/// Of bodies that grow.
+inline constexpr std::string_view contact_network_name = "contact_network";
 
 /// Those of axes with walls, for scenes that have some.
 inline constexpr std::array<std::string_view, 2> wall_observable_names = {"wall_profiles",

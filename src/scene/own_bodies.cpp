@@ -51,7 +51,10 @@ std::optional<WrongBody> wrong_number_of(const BodyNumbers& body) {
     return WrongBody{0, "length", body.length,
                      "one above 0, or a diameter, which makes it a sphere"};
   if (!masses.holds(body.mass)) return WrongBody{0, "mass", body.mass, range_of(masses)};
-  if (body.length == 0) return {};
+  if (body.length == 0) {
+    if (body.inertia == 0 || is_inertia_of_sphere(body)) return {};
+    return WrongBody{0, "inertia", body.inertia, expected_inertia_of_sphere};
+  }
   const double k = body.mass * (body.length * body.length) / (2 * body.inertia);
   if (range_of_k.holds(k)) return {};
   return WrongBody{0, "inertia", body.inertia,
@@ -115,12 +118,14 @@ class BodyMaker {
         first_of(given.mass,
                  species_.drawn.density ? *species_.drawn.density * substance(out) : drawn(2, id),
                  species_.mass);
-    if (!(out.length > 0)) {
+    if (!(out.length > 0 || species_.q > 0)) {
       out.inertia = 0;
-    } else if (given.inertia) {
+    } else if (given.inertia && (out.length > 0 || *given.inertia > 0)) {
       out.inertia = *given.inertia;
     } else if (const auto inertia = drawn(4, id); inertia || species_.given_inertia) {
       out.inertia = inertia ? *inertia : *species_.given_inertia;
+    } else if (out.length == 0) {
+      out.inertia = inertia_of(species_.q, out.mass, out.diameter);
     } else {
       out.inertia = out.mass * (out.length * out.length) / (2 * k_of(out, id));
     }
@@ -168,7 +173,7 @@ Species remembered(const Species& species, std::uint64_t seed, std::uint64_t fir
     return known.seed == seed && known.first == first && a.drawn == species.drawn &&
            a.count == species.count && a.length == species.length &&
            a.diameter == species.diameter && a.mass == species.mass && a.k == species.k &&
-           a.given_inertia == species.given_inertia;
+           a.q == species.q && a.given_inertia == species.given_inertia;
   };
   static std::mutex mutex;
   static std::vector<Known> all;
@@ -183,6 +188,7 @@ Species remembered(const Species& species, std::uint64_t seed, std::uint64_t fir
       out.diameter = made.diameter;
       out.mass = made.mass;
       out.k = made.k;
+      out.q = made.q;
       out.given_inertia.reset();
       out.sizes = made.sizes;
       return out;
@@ -196,6 +202,12 @@ Species remembered(const Species& species, std::uint64_t seed, std::uint64_t fir
 }
 
 }  // namespace
+
+bool is_inertia_of_sphere(const BodyNumbers& body) {
+  const double q = q_of(body.mass, body.diameter, body.inertia);
+  constexpr double rounded = 1 + 1e-12;
+  return q * rounded >= 1e-9 && q <= 2.0 / 3 * rounded;
+}
 
 BodyNumbers numbers_of(const Species& species) {
   return {species.length, species.diameter, species.mass, species.inertia()};
@@ -228,7 +240,13 @@ BodyNumbers body_of_row(const OwnBodies& own, std::size_t row, const Species& sp
     if (std::isinf(out.mass)) out.mass = species.mass;
     out.inertia = out.mass * (out.length * out.length) / (2 * species.k);
   }
-  if (out.length == 0) out.inertia = 0;
+  if (out.length == 0) {
+    // Files of smooth spheres say 0.
+    if (species.q == 0)
+      out.inertia = 0;
+    else if (out.inertia == 0)
+      out.inertia = inertia_of(species.q, out.mass, out.diameter);
+  }
   return out;
 }
 
@@ -337,7 +355,10 @@ Species completed(const Species& species, std::uint64_t seed, std::uint64_t firs
     out.length = body.length;
     out.diameter = body.diameter;
     out.mass = body.mass;
-    if (out.turns()) out.k = body.mass * (body.length * body.length) / (2 * body.inertia);
+    if (out.has_axis())
+      out.k = body.mass * (body.length * body.length) / (2 * body.inertia);
+    else
+      out.q = q_of(body.mass, body.diameter, body.inertia);
     out.given_inertia.reset();
     return out;
   }

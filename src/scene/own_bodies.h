@@ -80,6 +80,12 @@ inline constexpr std::array<DrawnQuantity, 5> drawn_quantities{
       {"inertia.distribution", "inertia.mean", "inertia.width", "inertia.min", "inertia.max",
        "inertia.exponent"}}}};
 
+/// Whether mass is nowhere farther from the centre than the surface: I = q m D^2 / 4, 0 < q <= 2/3.
+bool is_inertia_of_sphere(const BodyNumbers& body);
+inline constexpr const char* expected_inertia_of_sphere =
+    "one with which q = 4 I / (m D^2) of a sphere is from 1e-9 to 2/3, of which all mass is at its "
+    "surface";
+
 /// A species of a scene with all that follows from how it is drawn: numbers where its bodies are
 /// alike, `sizes` and means where each has its own. `first` is the id of the first of them. Does
 /// nothing where a distribution is wrong, and where `sizes` are known.

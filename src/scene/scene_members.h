@@ -11,11 +11,11 @@ namespace needlework {
 // one is added and forgotten here.
 
 /// Calls visit(section, key, member) for each member of Scene::Species, constant or not, but for
-/// `sizes`, which no key gives.
+/// `q` and `sizes`, which no key gives.
 template <class Species, class Visit>
 void visit_species(Species& species, Visit&& visit) {
-  auto& [name, count, length, mass, k, t_tr, t_rot, diameter, given_inertia, drawn, fixed, overlap,
-         sizes] = species;
+  auto& [name, count, length, mass, k, t_tr, t_rot, diameter, given_inertia, q, drawn, fixed,
+         overlap, sizes] = species;
   visit("species", "name", name);
   visit("species", "count", count);
   visit("species", "length", length);
@@ -28,6 +28,7 @@ void visit_species(Species& species, Visit&& visit) {
   visit("species", "drawn", drawn);
   visit("species", "fixed", fixed);
   visit("species", "overlap", overlap);
+  static_cast<void>(q);
   static_cast<void>(sizes);
 }
 

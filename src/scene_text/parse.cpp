@@ -167,7 +167,7 @@ void adopt_shapes(Scene& scene, const std::set<std::string>& given) {
     if (is_said) continue;
     species.drawn.homogeneous = species.drawn != DrawnSizes{};
     if (species.drawn.homogeneous) continue;
-    if (species.diameter > 0 && species.turns())
+    if (species.diameter > 0 && species.has_axis())
       species.k = homogeneous_k(species.length, species.diameter);
   }
 }
@@ -178,7 +178,8 @@ void adopt_species(Scene& scene, bool is_drawn) {
   if (scene.species.empty()) return;
   const Composition composition = scene.composition();
   for (std::size_t n = 0; is_drawn && n < composition.size(); ++n) {
-    if (composition[n].sizes) continue;  // each body has its own
+    if (composition[n].sizes) continue;        // each body has its own
+    if (!composition[n].has_axis()) continue;  // whose inertia counts where they are rough
     scene.species[n].k = composition[n].k;
     scene.species[n].given_inertia.reset();
   }

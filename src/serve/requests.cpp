@@ -51,6 +51,7 @@ Json summary_of(const runs::PreparedRun& run) {
   if (!run.scene().walls.empty()) json::add_walls(answer, simulation);
   if (acts_on_single_needles(run.scene())) json::add_energy_budget(answer, simulation);
   json::add_contacts(answer, simulation);
+  json::add_growth(answer, simulation);
   json::add_stress(answer, simulation);
   return answer;
 }
@@ -353,14 +354,21 @@ Json Requests::state(const Json& request, const Connection&) {
   add("needle_id", state.id);
   add("species", state.species);
   // All of them make a simulation of the same needles, whose bodies differ only where these do.
-  const OwnBodies own = wanted ? runs::bodies_of_needles(run.simulation()) : state.own_bodies;
+  const Composition& composition = run.simulation().composition();
+  OwnBodies own;
+  if (wanted) {
+    own = runs::bodies_of_needles(run.simulation());
+  } else if (composition.has_own_sizes()) {
+    own = std::move(state.own_bodies);
+  }
   for (const auto& [field, column] : columns_of(own))
     if (!column->empty()) add(field, *column);
   // Where walls do not move, the box is that of the scene.
   const bool moves = run.scene().has_moving_walls();
   for (const auto& [name, value] : {std::pair("box", &state.box), {"low", &state.low}})
     if (moves ? is_wanted(name) : wanted && is_wanted(name)) answer[name] = numbers(*value);
-  if (is_wanted("bodies")) answer["bodies"] = json_of(bodies_of(run.simulation().composition()));
+  if (is_wanted("bodies"))
+    answer["bodies"] = json_of(bodies_of(composition, state.scale.value_or(1)));
   return answer;
 }
 

@@ -36,7 +36,7 @@ struct Diameters {
 
 // Those of spheres, or of spheres that are in contact as often as the rods of a species.
 Diameters diameters_of(const Species& species, double packing) {
-  if (!species.turns()) return {species.diameter, species.square()};
+  if (!species.has_axis()) return {species.diameter, species.square()};
   const ConvexBody body = convex_body(species);
   if (body.volume == 0) return {};
   const double room = 1 - packing, x = solved_for_x(contact_value(body, packing), room);

@@ -222,7 +222,8 @@ Temperatures mean_of_species(const Composition& composition, std::span<const Tem
     if (composition[n].count == 0 || composition[n].fixed) continue;
     const double share = static_cast<double>(composition[n].count) / count;
     out.t_tr += share * each[n].t_tr;
-    if (composition[n].turns()) out.t_rot += share / out.turning * each[n].t_rot;
+    if (composition[n].turns())
+      out.t_rot += 0.5 * composition[n].rotations() * share / out.turning * each[n].t_rot;
   }
   return out;
 }

@@ -54,7 +54,7 @@ constexpr int angles = 48;
 // The contact points that one body has: of each, the moment of inertia's share, s^2 / I normal to
 // the direction of the impulse, and a weight [L, or 1 for caps].
 std::vector<Node> along_axis(const Species& species, double masses) {
-  if (!species.turns()) return {};
+  if (!species.has_axis()) return {};
   const double half = species.length / 2;
   const double feature = std::sqrt(1 + half * half / species.inertia() / masses);
   std::vector<Node> out = graded_rule(half, 0.02 * half / feature);
@@ -67,14 +67,32 @@ std::vector<Node> along_axis(const Species& species, double masses) {
 
 // All directions of the impulse are alike for a cap: (L/2)^2 (1 - mu^2), mu uniform.
 std::vector<Node> of_caps(const Species& species, double masses) {
-  if (!species.turns()) return {{0, 1}};
+  if (!species.has_axis()) return {{0, 1}};
   const double square = 0.25 * species.length * species.length / species.inertia();
   std::vector<Node> out = graded_rule(1, 0.02 / (1 + square / masses));
   for (auto& [x, weight] : out) x = square * (x * (2 - x));
   return out;
 }
 
+// a^2 / I of a rough sphere of radius a, 0 of a smooth one.
+double share_of_spin(const Species& species) {
+  return species.turns() ? 0.25 * species.diameter * species.diameter / species.inertia() : 0;
+}
+
+// The energy of rotation over its temperature.
+double freedoms_of(const Species& species) { return species.has_axis() ? 1 : 1.5; }
+
 }  // namespace
+
+MixtureLaw::Traces MixtureLaw::traces_of_spheres(const Contact& contact, double masses) {
+  const double along = masses + contact.first_along + contact.second_along;
+  Traces out;
+  for (int i = 0; i < 3; ++i) {
+    out.once[i] = 2 / along;
+    for (int j = 0; j < 3; ++j) out.twice[i][j] = 2 / (along * along);
+  }
+  return out;
+}
 
 MixtureLaw::MixtureLaw(const Composition& composition, double volume, WithoutPairs)
     : composition_(composition), volume_(volume) {
@@ -116,14 +134,19 @@ void MixtureLaw::tabulate(Pair& pair, std::span<const Node> first, std::span<con
                           double unit) const {
   const Species &a = composition_[pair.first], &b = composition_[pair.second];
   const bool rough = composition_.restitution(pair.first, pair.second).is_rough();
+  const bool spheres = composition_.are_spheres(pair.first, pair.second);
   const double masses = 1 / a.mass + 1 / b.mass;
   for (const auto& [share_a, weight_a] : first) {
     for (const auto& [share_b, weight_b] : second) {
-      Contact contact{
-          .weight = unit * weight_a * weight_b, .first = share_a, .second = share_b, .normal = 0};
-      contact.normal = masses + contact.first + contact.second;
+      Contact contact{.weight = unit * weight_a * weight_b,
+                      .first = share_a,
+                      .second = share_b,
+                      .normal = masses + share_a + share_b,
+                      .first_along = spheres ? share_of_spin(a) : share_a,
+                      .second_along = spheres ? share_of_spin(b) : share_b};
       Traces traces;
-      for (int n = 1; rough && n <= angles; ++n) {
+      if (rough && spheres) traces = traces_of_spheres(contact, masses);
+      for (int n = 1; rough && !spheres && n <= angles; ++n) {
         const double angle = std::numbers::pi * n / (angles + 1);
         const double sine = std::sin(angle), cosine = std::cos(angle);
         const double weight = 2 * sine * sine / (angles + 1);
@@ -160,6 +183,7 @@ void MixtureLaw::add(const Pair& pair, std::span<const Temperatures> now, Mixtur
   for (std::size_t n = 0; n < pair.contacts.size(); ++n) {
     const Contact& c = pair.contacts[n];
     const double turn_a = t.t_rot * c.first, turn_b = u.t_rot * c.second;
+    const double slip_a = t.t_rot * c.first_along, slip_b = u.t_rot * c.second_along;
     const double sigma2 = flight + (turn_a + turn_b);
     const double weight = c.weight * std::sqrt(sigma2);
     rate += weight;
@@ -173,14 +197,14 @@ void MixtureLaw::add(const Pair& pair, std::span<const Temperatures> now, Mixtur
       const double* twice = traces.twice[matrix];
       return (1 + beta) *
              (-x * traces.once[matrix] +
-              0.5 * (1 + beta) * y * (flight * twice[0] + turn_a * twice[1] + turn_b * twice[2]));
+              0.5 * (1 + beta) * y * (flight * twice[0] + slip_a * twice[1] + slip_b * twice[2]));
     };
     gain[0] +=
         weight * (normal(t.t_tr / a.mass, 1 / a.mass) + tangential(0, t.t_tr / a.mass, 1 / a.mass));
-    gain[1] += weight * (normal(turn_a, c.first) + tangential(1, turn_a, c.first));
+    gain[1] += weight * (normal(turn_a, c.first) + tangential(1, slip_a, c.first_along));
     gain[2] +=
         weight * (normal(u.t_tr / b.mass, 1 / b.mass) + tangential(0, u.t_tr / b.mass, 1 / b.mass));
-    gain[3] += weight * (normal(turn_b, c.second) + tangential(2, turn_b, c.second));
+    gain[3] += weight * (normal(turn_b, c.second) + tangential(2, slip_b, c.second_along));
   }
   const double count_a = static_cast<double>(a.count), count_b = static_cast<double>(b.count);
   const bool alike = pair.first == pair.second;
@@ -193,7 +217,7 @@ void MixtureLaw::add(const Pair& pair, std::span<const Temperatures> now, Mixtur
   const auto gains = [&](std::size_t species, double count, const double* each) {
     const double share = pairs / (volume_ * count);
     out.temperatures[species].t_tr += share * each[0] / 1.5;
-    out.temperatures[species].t_rot += share * each[1];
+    out.temperatures[species].t_rot += share * each[1] / freedoms_of(composition_[species]);
   };
   gains(pair.first, count_a, gain);
   gains(pair.second, count_b, gain + 2);

@@ -30,8 +30,12 @@ class MixtureLaw {
     double weight;         // of the collision rate, without sigma, per pair of needles
     double first, second;  // s^2 / I, s'^2 / I' [1 / m]
     double normal;         // M along the normal [1 / m]
+    // s^2 / I along the surface. Of spheres, whose spin moves the contact only along it, their
+    // radii are in the place of s.
+    double first_along, second_along;
   };
-  // Means of traces in the plane of the directors, with P and P' the projections off each director:
+  // Means of traces in the plane of the directors, with P and P' the projections off each director,
+  // which are 1 for spheres:
   // of M^-1 X and of M^-1 Y M^-1 X, for X in {1, P, P'} and Y in {1, P, P'}.
   struct Traces {
     double once[3] = {}, twice[3][3] = {};
@@ -49,6 +53,7 @@ class MixtureLaw {
   void tabulate(Pair& pair) const;
   void tabulate(Pair& pair, std::span<const Node> first, std::span<const Node> second,
                 double unit) const;
+  static Traces traces_of_spheres(const Contact& contact, double masses);
   void add(const Pair& pair, std::span<const Temperatures> now, MixtureRates& out) const;
   template <bool rough>
   void add(const Pair& pair, std::span<const Temperatures> now, MixtureRates& out) const;

@@ -14,7 +14,8 @@ std::optional<SteadyShear> steady_shear(const Species& body, double epsilon, dou
                                         double rate) {
   if (!(epsilon < 1 && epsilon >= 0.5 && density > 0) || rate == 0) return std::nullopt;
   const double loss = 1 - epsilon * epsilon;
-  if (!body.turns()) {
+  if (!body.has_axis()) {
+    if (body.turns()) return std::nullopt;
     const double zeta = 5 * loss / 12, b = 0.5 * (1 + epsilon) * (1 - (1 - epsilon) / 3);
     const double of_rate = std::sqrt(1.5 * zeta / b) * (b + zeta);
     // rate = of_rate * nu, nu ~ sqrt(T).

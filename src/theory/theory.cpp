@@ -77,6 +77,17 @@ Temperatures cooling_rates(const Gas& gas, Temperatures now) {
   return CoolingLaw(gas).rates(now).temperatures;
 }
 
+// Per (4/3) collisions of a sphere T_tr loses a T_tr - b T_rot and T_rot c T_rot - b T_tr.
+double asymptotic_ratio_of_spheres(double q, const Restitution& rule) {
+  require_positive("q", q);
+  const double epsilon = rule.epsilon, eta = 0.5 * (1 + rule.beta) * q / (1 + q);
+  const double a = (1 - epsilon * epsilon) / 4 + eta * (1 - eta), b = eta * eta / q,
+               c = eta / q * (1 - eta / q);
+  const bool is_elastic = epsilon == 1 && rule.beta == 1;
+  if (b == 0 || is_elastic) return std::numeric_limits<double>::quiet_NaN();
+  return 2 * b / (a - c + std::hypot(a - c, 2 * b));
+}
+
 double asymptotic_ratio(const Gas& gas) {
   const CoolingLaw law(gas);
   if (law.is_elastic()) return std::numeric_limits<double>::quiet_NaN();

@@ -125,7 +125,7 @@ std::array<WallRates, 3> wall_rates(const Species& species, const std::array<dou
       if (!walled[axis]) continue;
       const double others = width[(axis + 1) % 3] * width[(axis + 2) % 3];
       // L^2 / (4 I) (1 - u_n^2)
-      const double turn = species.turns() ? 0.5 * species.k * (1 - u[axis] * u[axis]) : 0;
+      const double turn = species.has_axis() ? 0.5 * species.k * (1 - u[axis] * u[axis]) : 0;
       const double energy = now.t_tr + now.t_rot * turn;  // m times the variance
       const auto [hits, force] = onto(advance, energy, species.mass);
       out[axis].hits += weight * others * hits;
@@ -189,7 +189,7 @@ double kick_power(const Composition& composition, double translational, double r
     count += needles;
     mass += needles * each.mass;
     squares += needles * each.mass * each.mass * (1 + width * width);
-    inertia += needles * each.inertia();
+    inertia += needles * (0.5 * each.rotations() * each.inertia());
   }
   if (count == 0) return 0;
   const double taken_off = composition.has_fixed() ? 0 : squares / mass;

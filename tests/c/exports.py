@@ -21,7 +21,7 @@ def main(library, header):
                                   "not exported": declared - exported}
     versions = {line.split()[-1].partition("@@")[2] for line in lines if line.split()[-2] != "A"}
     assert versions == {"NEEDLEWORK_1"}, versions
-    assert Path(library).resolve().name.startswith("libneedlework.so.4"), library
+    assert Path(library).resolve().name.startswith("libneedlework.so.5"), library
 
 
 if __name__ == "__main__":

@@ -67,7 +67,7 @@ endforeach()
 execute_process(COMMAND ${OBJDUMP} -p ${WORK}/c_smallest/consumer OUTPUT_VARIABLE needed
                 COMMAND_ERROR_IS_FATAL ANY)
 if(NOT needed MATCHES "NEEDED +libneedlework\\.so\\.4\n" OR needed MATCHES "hdf5|libfmt")
-  message(FATAL_ERROR "expected a program that needs libneedlework.so.4:\n${needed}")
+  message(FATAL_ERROR "expected a program that needs libneedlework.so.5:\n${needed}")
 endif()
 
 # What the components core, scenes and theory need must be there without the rest of the library, and without HDF5.

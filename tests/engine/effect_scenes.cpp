@@ -195,6 +195,46 @@ Scene sizes_of_spheres() {
   return scene;
 }
 
+// Rough spheres of two kinds, one of them of many sizes, which are smooth to each other.
+Scene rough_spheres(double edge) {
+  Scene scene = scene_of(0, edge);
+  scene.species = {
+      {.name = "hollow", .count = 60, .length = 0, .mass = 2, .t_rot = 3, .diameter = 1.2},
+      {.name = "solid", .count = 90, .length = 0}};
+  scene.species[0].given_inertia = 2 * 1.2 * 1.2 / 6;
+  scene.species[1].drawn.diameter = lognormal(0.8, 0.2);
+  scene.collisions = {.epsilon = 0.8, .beta = 0.4};
+  scene.collisions.tc = 3e-3;
+  scene.pairs = {{.between = {"hollow", "solid"}, .epsilon = 0.9, .beta = -1},
+                 {.between = {"solid", "solid"}, .epsilon = {}, .beta = -0.6}};
+  return scene;
+}
+
+Scene rough_spheres_in_all() {
+  Scene scene = rough_spheres(6);
+  scene.walls = {wall("x", "low", 0.8),
+                 {.axis = "x", .side = "high", .temperature = 1.5},
+                 {.axis = "z", .side = "low", .epsilon = 0.9}};
+  scene.walls[2].motion = Scene::WallMotion{.amplitude = 0.1, .frequency = 0.5};
+  scene.forces.gravity = {0.4, 0, -1};
+  scene.driving.kicks = {.every = 0.3, .translational = 0.3, .rotational = 0.6};
+  return scene;
+}
+
+// Rough spheres among smooth rods, or among thin rough needles, with a thermostat.
+Scene rough_spheres_among(double diameter) {
+  Scene scene = rough_spheres(9);
+  scene.species.push_back({.name = "rods", .count = 60, .length = 2, .diameter = diameter});
+  scene.collisions.beta = -1;
+  scene.pairs = {{.between = {"hollow", "hollow"}, .epsilon = {}, .beta = 0.4},
+                 {.between = {"hollow", "solid"}, .epsilon = 0.9, .beta = 1}};
+  if (diameter == 0)
+    scene.pairs.push_back({.between = {"rods", "rods"}, .epsilon = {}, .beta = 0.3});
+  scene.walls = {{.axis = "z", .side = "low"}, {.axis = "z", .side = "high", .temperature = 2}};
+  scene.driving.andersen = {.rate = 0.3, .temperature = 1.5};
+  return scene;
+}
+
 // Needles among fixed ones, which differ, and which only some of them meet.
 Scene among_fixed() {
   Scene scene = scene_of(0, 5, 3);
@@ -273,6 +313,13 @@ std::vector<EffectScene> effect_scenes() {
   add("sizes_of_rods", sizes_of_rods(), until_collisions(8));
   add("sizes_of_spheres", sizes_of_spheres(), until_collisions(12));
   add("sheared_sizes", sheared(sizes(), 0.7, 1.1), until_collisions(6)).driving = {};
+  add("rough_spheres", rough_spheres_in_all(), until_collisions(12));
+  add("rough_spheres_with_obstacles", rough_spheres(6), until_collisions(12)).species[0] = {
+      .name = "hollow", .count = 40, .length = 0, .diameter = 1, .fixed = true};
+  add("rough_spheres_among_rods", rough_spheres_among(0.5), until_collisions(10));
+  add("rough_spheres_among_needles", rough_spheres_among(0), until_collisions(10));
+  add("sheared_rough_spheres", sheared(rough_spheres(6), 0.5, 2), until_collisions(12))
+      .driving.kicks = {.every = 0.3, .translational = 0.3, .rotational = 0.6};
   add("among_fixed", among_fixed(), until_collisions(8));
 
   add("growing_spheres", growing(rods_of(150, 0, 0.3), 0.05), until_collisions(30));

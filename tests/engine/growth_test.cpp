@@ -198,7 +198,10 @@ std::vector<GrowthCase> growth_cases() {
   Scene sizes = rods_of(60, 0, 0.2, 4);
   sizes.species[0].drawn.diameter =
       Distribution{.shape = Distribution::Shape::lognormal, .mean = 1, .width = 0.2};
+  Scene rough = inelastic_spheres;
+  rough.collisions.beta = 0.5;
   return {{"spheres", growing(inelastic_spheres, 0.05, 0.7)},
+          {"rough_spheres", growing(rough, 0.05, 0.7)},
           {"rods", growing(rods_of(60, 2, 0.15, 5), 0.05, 0.7)},
           {"kinds", growing(three_kinds(), 0.02, 0.7)},
           {"spheres_between_walls", growing(between_walls(rods_of(60, 0, 0.15, 6)), 0.05, 0.6)},

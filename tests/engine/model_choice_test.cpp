@@ -17,7 +17,7 @@ std::string model_of(const Effects& effects) {
   try {
     return with_model(effects, []<class M>() -> std::string {
       EXPECT_TRUE(M::has_effects || !M::has_sliding);
-      return !M::Law::turns         ? "spheres"
+      return !M::Law::has_axes      ? "spheres"
              : M::Law::mixes        ? "mixed"
              : M::Law::has_distance ? "rods"
              : M::has_sliding       ? "sliding"
@@ -42,8 +42,8 @@ TEST(ModelChoice, LeavesNoEffectOut) {
     for (std::size_t n = 0; n < std::size(all); ++n) effects.*all[n] = (set >> n & 1u) != 0;
     const bool impossible =
         ((effects.spheres || effects.mixed) && !effects.width) ||
-        (effects.spheres && effects.mixed) || (effects.width && effects.rough && !effects.mixed) ||
-        (effects.width && effects.sliding) || (effects.growth && !effects.width) ||
+        (effects.spheres && effects.mixed) || (effects.width && effects.sliding) ||
+        (effects.growth && !effects.width) ||
         (effects.sliding &&
          (effects.rough || effects.contact_time || effects.shear || effects.stress));
     const std::string expected = impossible        ? "none"

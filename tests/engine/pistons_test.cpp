@@ -426,6 +426,15 @@ void expect_jam(const Scene& scene) {
   if (scene.collisions.epsilon == 1) {
     EXPECT_NEAR(rest.totals().energy, energy, 1e-9 * energy);
   }
+  // The run has ended at the same collision however it is searched, and resumed.
+  for (const char* search : {"all-pairs", "capsules"}) {
+    Simulation other(searched_by(scene, search));
+    other.advance(until_time(0.7 * time));
+    Simulation resumed(searched_by(scene, search), other.checkpoint());
+    EXPECT_EQ(resumed.advance(until_time(1e3)), Stop::jammed);
+    EXPECT_EQ(resumed.trajectory_hash(), run.trajectory_hash());
+    EXPECT_EQ(resumed.time(), time);
+  }
   // So does the run itself, which soon ends again.
   EXPECT_EQ(run.advance(until_time(1e3)), Stop::jammed);
   EXPECT_GE(run.time(), time);

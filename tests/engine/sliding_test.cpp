@@ -349,7 +349,8 @@ TEST(Slides, DepartFromTheFlightsOfRecordsByTheMarginAtMost) {
     gas.let_slide();
     for (const std::size_t i : {0, 1}) {
       const kernels::Flight flight = gas.records[i].flight;
-      renew_record(gas, Needle(i), {}, {flight.r, flight.v, flight.u, flight.w}, 1);
+      renew_record(gas, Needle(i), {}, {flight.r, flight.v, flight.u, flight.w},
+                   gas.body(Needle(i)));
     }
     const Record &first = gas.records[0], &second = gas.records[1];
     // The image in which they touch.

@@ -78,6 +78,7 @@ inline SpeciesSums no_sums(const Scene& scene) {
   sums.walls.resize(scene.wall_sides().size());
   sums.energy.walls.resize(sums.walls.size());
   if (scene.driving.andersen) sums.energy.thermostat = 0;
+  if (scene.driving.growth) sums.energy.growth = sums.energy.cooling = 0;
   if (scene.driving.kicks) sums.energy.kicks = 0;
   if (scene.shear) sums.energy.shear = 0;
   return sums;

@@ -23,6 +23,8 @@ SLIDING = {**FEW, "needles.box": 4, "collisions.epsilon": [0.8, 0.5], "until.ene
 SHEAR = {"needles.count": 16, "needles.box": 2.5, "until.time": 8}
 OBSTACLES = {"species.moving.count": 30, "species.still.count": 100, "until.time": 5,
              "output.series_every": 0.05}
+ROUGH_SPHERES = {"species.spheres.count": 40, "needles.box": 16.1,
+                 "until.collisions_per_needle": 210}
 LIQUID = {**FEW, "until.time": 3, "output.series_every": 0.02}
 
 
@@ -43,6 +45,10 @@ GRIDS = {
     "ratio": ("ratio", {**FEW, "collisions.epsilon": [0.8], "needles.k": [2, 4.3607], **COLD}),
     "rough": ("rough", {**FEW, "collisions.epsilon": [0.7, 0.9], "collisions.beta": [-0.5, 0.5],
                         **COLD}),
+    "rough-spheres": ("rough-spheres", {**ROUGH_SPHERES, "collisions.epsilon": [0.7, 0.9],
+                                        "collisions.beta": [-0.5, 0.5]}),
+    "rough-spheres-smooth": ("rough-spheres", {**ROUGH_SPHERES, "collisions.beta": -0.9,
+                                               "species.spheres.t_rot": 50}),
     "relaxation": ("relaxation", {**FEW, "needles.box": [3, 4], "until.time": 20}),
     "dense": ("dense", {**DENSE, "needles.k": [6, 2], "initial.t_rot": [1, 0]}),
     "dense-tc": ("dense", {**DENSE, **TC}),

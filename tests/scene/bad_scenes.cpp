@@ -52,7 +52,7 @@ TEST(BadScene, ValueOutOfRangeOrOfWrongTypeIsNamedWithItsLine) {
       "\"distributions\", \"alignment\", \"velocity_moments\", \"temperature_by_axis\", "
       "\"pair_correlation\", \"structure_factor\", \"displacement\", "
       "\"time_correlation\", \"collision_statistics\", "
-      "\"wall_profiles\", \"centre_of_mass\", \"pressure_tensor\", "
+      "\"wall_profiles\", \"centre_of_mass\", \"contact_network\", \"pressure_tensor\", "
       "\"t_tr\", \"t_rot\", \"energy\", \"momentum\", \"collisions\", \"tc_collisions\"";
   const BadLine table[] = {
       {"needles", "count = -1", count},

@@ -53,13 +53,33 @@ TEST(Driving, CanBeOverridden) {
   EXPECT_EQ(driving.andersen->temperature, 5);
   const std::string keys =
       "expected one of kicks.every, kicks.translational, kicks.rotational, andersen.rate, "
-      "andersen.temperature";
+      "andersen.temperature, growth.rate, growth.until_packing, growth.until_pressure, "
+      "growth.cool_every";
   EXPECT_EQ(message(undriven, {"driving.kicks.evry=1"}),
             "--set driving.kicks.evry=1: " + keys + ", did you mean kicks.every?");
   EXPECT_EQ(message(undriven, {"driving.kicks=1"}),
             "--set driving.kicks=1: expected {every = ..., translational = ..., rotational = ...}");
   EXPECT_EQ(message(undriven, {"driving.a.kicks.every=1"}),
             "--set driving.a.kicks.every=1: expected section.key=value");
+}
+
+TEST(Driving, HasGrowth) {
+  const std::string spheres =
+      "needles = { count = 10, box = 12, diameter = 0.5 }\nuntil.time = 5\n";
+  const auto growth = [&](const std::string& keys) {
+    return parse_scene(spheres + "driving.growth = {" + keys + "}", "s.toml").driving.growth;
+  };
+  const auto all = growth("rate = 0.01, until_packing = 0.6, until_pressure = 1e6, cool_every = 2");
+  ASSERT_TRUE(all);
+  EXPECT_EQ(all->rate, 0.01);
+  EXPECT_EQ(all->until_packing, 0.6);
+  EXPECT_EQ(all->until_pressure, 1e6);
+  EXPECT_EQ(all->cool_every, 2);
+  EXPECT_EQ(all->from, 1);
+  const auto least = growth("rate = 1");
+  ASSERT_TRUE(least);
+  EXPECT_FALSE(least->until_packing || least->until_pressure || least->cool_every);
+  EXPECT_FALSE(parse_scene(spheres, "s.toml").driving.growth);
 }
 
 TEST(BadDriving, IsRefused) {
@@ -76,6 +96,14 @@ TEST(BadDriving, IsRefused) {
        "line 3: driving.andersen.temperature = 0: " + temperature},
       {"andersen = { rate = 1 }", "driving.andersen.temperature is missing: " + temperature},
       {"andersen = { temperature = 1 }", "driving.andersen.rate is missing: " + rate},
+      {"growth = { until_packing = 0.6 }",
+       "driving.growth.rate is missing: expected a number > 0 (from 1e-9 to 10)"},
+      {"growth = { rate = 1, until_packing = 1.5 }",
+       "line 3: driving.growth.until_packing = 1.5: expected a number > 0 (from 1e-9 to 1)"},
+      {"growth = { rate = 1, until_pressure = 0.5 }",
+       "line 3: driving.growth.until_pressure = 0.5: expected a number from 1 to 1e10"},
+      {"growth = { rate = 1, cool_every = -1 }",
+       "line 3: driving.growth.cool_every = -1: expected a number >= 0 (at most 1e6)"},
   };
   for (const auto& [text, expected] : cases)
     EXPECT_EQ(message(undriven + "driving." + text), "s.toml: " + expected) << text;

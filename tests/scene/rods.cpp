@@ -6,6 +6,7 @@
 
 #include "needlework/error.h"
 #include "needlework/parse.h"
+#include "src/scene/own_bodies.h"
 #include "tests/scene/message.h"
 #include "tests/support/contains.h"
 
@@ -45,6 +46,42 @@ TEST(SceneOfRods, HasSpheresThatDoNotTurn) {
   EXPECT_EQ(sphere.inertia(), 0);
   EXPECT_EQ(sphere.t_rot, 0);
   EXPECT_NEAR(sphere.volume(), 4.18879, 1e-5);
+}
+
+// One with a rough partner, itself among them.
+TEST(SceneOfRods, HasRoughSpheresThatTurn) {
+  const auto composition = [](const std::string& keys, const std::string& rest = "") {
+    return rods(entry("a", "length = 0\ndiameter = 2\nmass = 3\nt_rot = 5\n" + keys) +
+                entry("b", "length = 0\ndiameter = 1") + entry("rods", "diameter = 1") +
+                "[[pairs]]\nbetween = ['a', 'a']\nbeta = 0.5\n" + rest)
+        .composition();
+  };
+  const Composition homogeneous = composition("");
+  EXPECT_TRUE(homogeneous[0].turns());
+  EXPECT_FALSE(homogeneous[0].has_axis());
+  EXPECT_EQ(homogeneous[0].q, 0.4);
+  EXPECT_EQ(homogeneous[0].inertia(), 0.4 * 3 * 4 / 4);
+  EXPECT_EQ(homogeneous[0].t_rot, 5);
+  EXPECT_FALSE(homogeneous[1].turns());
+  EXPECT_EQ(homogeneous[1].t_rot, 0);
+  EXPECT_EQ(homogeneous.turning_share(), (1.5 * 2 + 2) / 6);
+  EXPECT_EQ(composition("inertia = 1.5")[0].q, 0.5);
+  EXPECT_EQ(composition("inertia = 2")[0].q, 2.0 / 3);
+  const Composition both = composition("", "[[pairs]]\nbetween = ['a', 'b']\nbeta = -0.5\n");
+  EXPECT_EQ(both[1].q, 0.4);
+  EXPECT_EQ(both[1].t_rot, 1);
+}
+
+TEST(SceneOfRods, HasRoughSpheresThatDiffer) {
+  const Scene scene = parse_scene(
+      "needles.box = 30\nuntil.time = 1\ncollisions.beta = 0\n[[species]]\n"
+      "name = 'a'\ncount = 50\nlength = 0\ndiameter.distribution = 'lognormal'\n"
+      "diameter.mean = 1\ndiameter.width = 0.2\nmass.density = 2\n",
+      "s.toml");
+  for (const BodyNumbers& body : drawn_bodies(scene))
+    EXPECT_EQ(body.inertia, 0.4 * body.mass * (body.diameter * body.diameter) / 4);
+  const Species all = scene.composition()[0];
+  EXPECT_NEAR(all.inertia(), all.sizes->inertia.mean, 1e-15);
 }
 
 // Beside what invalid_scenes.json has.

@@ -13,7 +13,7 @@ struct Velocities {
 inline Shift renew_in_flight(Gas& gas, Needle i, Time now, const Vec3d& director,
                              const Velocities& velocities = {}) {
   return renew_record(gas, i, now, {gas.present(i, now).r, velocities.v, director, velocities.w},
-                      gas.body(i).extent());
+                      gas.body(i));
 }
 
 }  // namespace needlework::test

@@ -1,8 +1,8 @@
 """All figures, those of the paper first."""
 
 from . import (alignment, boltzmann, causes, confined, dense, dilute, driving, flow, flows,
-               fluctuations, large, liquid, nematic, obstacles, ratio, relaxation, rods, shear,
-               sliding)
+               fluctuations, large, liquid, nematic, obstacles, ratio, relaxation, rods, rough_spheres,
+               shear, sliding)
 from .figure import Figure
 
 FIGURES = {figure.name: figure for figure in (
@@ -33,6 +33,9 @@ FIGURES = {figure.name: figure for figure in (
            relaxation.measure_relaxation, relaxation.draw_relaxation),
     Figure("rough", "Beyond the paper: long-time ratio of rough needles", ("rough",),
            ratio.measure_rough_ratio, ratio.draw_rough_ratio),
+    Figure("rough-spheres", "Beyond the paper: ratio of temperatures of rough spheres",
+           rough_spheres.SETS,
+           rough_spheres.measure_rough_spheres, rough_spheres.draw_rough_spheres),
     Figure("sizes", "Beyond the paper: the dense gas in boxes of several sizes",
            ("box-small", "box-middle", "box-large", "dense"),
            dense.measure_box_sizes, dense.draw_box_sizes),

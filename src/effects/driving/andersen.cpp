@@ -33,9 +33,9 @@ SourceOutcome Andersen::happen(const Gas& gas, const NeedleAt& at, std::int8_t) 
   SourceOutcome out;
   out.changes_motion = true;
   out.velocity = vector_of(random.normal()) * std::sqrt(parameters_.temperature / mass);
-  // Spheres draw the same numbers, and do not turn.
+  // Smooth spheres draw the same numbers, and do not turn.
   const double spread = at.body.turns() ? std::sqrt(parameters_.temperature / inertia) : 0;
-  out.angular_velocity = project_out(vector_of(random.normal()) * spread, at.director);
+  out.angular_velocity = turned(at.body, vector_of(random.normal()) * spread, at.director);
   next_[at.needle] = gas.clock.add(at.now, random.exponential() / parameters_.rate);
   const Vec3d &v = out.velocity, &w = out.angular_velocity;
   out.energy_change = 0.5 * (mass * (dot(v, v) - dot(at.velocity, at.velocity)) +

@@ -14,13 +14,13 @@ Time Kicks::time(const Clock& clock, std::uint64_t n) const {
   return clock.add({}, static_cast<double>(n) * parameters_.every);
 }
 
-Kicks::Change Kicks::change(Id id, std::uint64_t n, const Vec3d& director) const {
+Kicks::Change Kicks::change(Id id, std::uint64_t n, const Body& body, const Vec3d& director) const {
   NeedleRandom random(parameters_.seed, id.value, RandomFor::kick, n);
   const double root = std::sqrt(parameters_.every);
   Change out;
   out.velocity = vector_of(random.normal()) * (parameters_.translational * root);
   out.angular_velocity =
-      project_out(vector_of(random.normal()) * (parameters_.rotational * root), director);
+      turned(body, vector_of(random.normal()) * (parameters_.rotational * root), director);
   return out;
 }
 

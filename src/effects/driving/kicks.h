@@ -15,7 +15,7 @@ class Kicks {
   struct Parameters {
     double every = 1;          ///< [time]
     double translational = 0;  ///< xi: a component of a velocity changes by a variance xi^2 every
-    double rotational = 0;     ///< the same for the two of an angular velocity
+    double rotational = 0;     ///< the same for those of an angular velocity
     std::uint64_t seed = 1;
   };
   explicit Kicks(const Parameters& parameters) : parameters_(parameters) {}
@@ -27,8 +27,8 @@ class Kicks {
   struct Change {
     Vec3d velocity, angular_velocity;
   };
-  /// Of a needle with this director, at kick number n.
-  Change change(Id id, std::uint64_t n, const Vec3d& director) const;
+  /// Of a body with this director, at kick number n.
+  Change change(Id id, std::uint64_t n, const Body& body, const Vec3d& director) const;
 
   /// All numbers on which they depend.
   std::vector<double> parameters() const;

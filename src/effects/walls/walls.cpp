@@ -28,14 +28,14 @@ double sign_of(int tip) { return tip == 0 ? 1 : -1; }
 
 // Of a tip along the normal of a wall: velocity per impulse. `share` is the director's component.
 double mobility_of(const Body& body, double arm, double share) {
-  if (!body.turns()) return 1 / body.mass;
+  if (!body.has_axis()) return 1 / body.mass;
   return 1 / body.mass + arm * arm / body.inertia * (1 - share * share);
 }
 
 // By how much an impulse on a tip along the normal turns a needle.
 Vec3d turn_by(const Body& body, const Vec3d& director, const Vec3d& normal, double arm,
               double impulse) {
-  if (!body.turns()) return {};
+  if (!body.has_axis()) return {};
   return cross(director, normal) * (arm * impulse / body.inertia);
 }
 
@@ -185,7 +185,7 @@ void Walls::leave_with_temperature(const NeedleAt& at, const Wall& wall, const V
   NeedleRandom random(seed_, at.id.value, RandomFor::thermal_wall, (*draws_)[at.needle]++);
   const Vec3d v = vector_of(random.normal()) * std::sqrt(temperature / body.mass);
   const double spread = body.turns() ? std::sqrt(temperature / inertia) : 0;
-  const Vec3d w = project_out(vector_of(random.normal()) * spread, at.director);
+  const Vec3d w = turned(body, vector_of(random.normal()) * spread, at.director);
   // Along the normal, where the wall's own motion has no part.
   const double drawn = dot(v + cross(w, at.director) * arm, normal);
   const double leaving = std::sqrt(2 * temperature * mobility * random.exponential());
@@ -250,7 +250,7 @@ SourceOutcome Walls::happen(const Gas& gas, const NeedleAt& at, std::int8_t deta
     out.work = impulse * (sign * surface);
     out.growth_work = impulse * growth;
     // A sphere that does not rebound from a wall moves with it from then on, to the last digit.
-    if (wall.edge.moves() && epsilon == 0 && !body.turns())
+    if (wall.edge.moves() && epsilon == 0 && !body.has_axis())
       set_component(out.velocity, wall.plane.axis, surface);
     out.energy_change = impulse * (tip + 0.5 * impulse * mobility);
   }
@@ -258,8 +258,9 @@ SourceOutcome Walls::happen(const Gas& gas, const NeedleAt& at, std::int8_t deta
   const std::uint64_t before = touching_[at.needle];
   const bool same_instant = before >> bits_of_tips == at.record.serial && at.record.time == at.now;
   const std::uint64_t tips = same_instant ? before & ((1u << bits_of_tips) - 1) : 0;
-  touching_[at.needle] = std::uint64_t{at.record.serial + 1u} << bits_of_tips | tips |
-                         (body.turns() ? std::uint64_t{1} << detail : std::uint64_t{3} << (2 * n));
+  touching_[at.needle] =
+      std::uint64_t{at.record.serial + 1u} << bits_of_tips | tips |
+      (body.has_axis() ? std::uint64_t{1} << detail : std::uint64_t{3} << (2 * n));
   return out;
 }
 

@@ -222,7 +222,11 @@ void NeedleReader::read_rotation(const Row& row) {
   const VectorColumns& columns =
       columns_.angular_velocity ? *columns_.angular_velocity : *columns_.angular_momentum;
   Vector w = read_vector(row, columns, "angular velocity");
-  if (const double part = std::abs(part_along(w, u)); !(part <= director_tolerance)) {
+  const std::vector<double>& lengths = configuration_.material.length;
+  const bool are_spheres =
+      !lengths.empty() && std::ranges::all_of(lengths, [](double length) { return length == 0; });
+  const double part = are_spheres ? 0 : std::abs(part_along(w, u));
+  if (!(part <= director_tolerance)) {
     const double along = part * length_of(w);
     if (part <= largest_rounding) {
       deviation = std::max(deviation, part);

@@ -57,6 +57,7 @@ class DynamoWriter : public FrameWriter {
   DynamoWriter(const std::string& path, bool force, const Material& material)
       : path_(path),
         spheres_(are_spheres(material)),
+        material_(material),
         composition_(composition_of(material, path)),
         name_(material.names.empty() ? "Bulk" : material.names[0]),
         walls_(single_walls(material.walls)),
@@ -66,7 +67,10 @@ class DynamoWriter : public FrameWriter {
   }
 
   void add(const Frame& frame) override {
-    if (!frame.state.own_bodies.empty()) {
+    if (frame.state.scale) composition_ = composition_of(grown(material_, frame.state), path_);
+    const auto differ = which_differ(frame.state, composition_.size());
+    const bool are_own = !frame.state.scale && !frame.state.own_bodies.empty();
+    if (are_own || std::ranges::find(differ, true) != differ.end()) {
       throw InputError(
           fmt::format("{}: bodies of a species that differ: expected equal ones, as particles of a "
                       "species are written with one mass and one size",
@@ -108,6 +112,7 @@ class DynamoWriter : public FrameWriter {
 
   std::string path_;
   bool spheres_;
+  Material material_;
   Composition composition_;
   std::string name_;                // of a single species
   std::vector<Scene::Wall> walls_;  // one by one
@@ -129,8 +134,8 @@ void DynamoWriter::require_known_bodies() const {
         "{}: pairs that pass through each other: expected species that all meet", path_));
   }
   if (spheres_) return;
-  const auto is_needle = [](const Species& each) { return each.turns() && each.diameter == 0; };
-  const auto is_sphere = [](const Species& each) { return !each.turns(); };
+  const auto is_needle = [](const Species& each) { return each.has_axis() && each.diameter == 0; };
+  const auto is_sphere = [](const Species& each) { return !each.has_axis(); };
   if (std::ranges::any_of(composition_.species(), is_needle) &&
       std::ranges::any_of(composition_.species(), is_sphere)) {
     throw InputError(

@@ -122,7 +122,7 @@ std::vector<Species> species_of(const Material& material) {
     each.diameter = number_of(material.diameter, i, each.diameter);
     each.k = number_of(
         material.k, i,
-        each.diameter > 0 && each.turns() ? homogeneous_k(each.length, each.diameter) : each.k);
+        each.diameter > 0 && each.has_axis() ? homogeneous_k(each.length, each.diameter) : each.k);
   }
   return all;
 }
@@ -198,11 +198,19 @@ double farthest_end(const std::vector<Species>& all, const State& state) {
   return longest / 2;
 }
 
+Material grown(Material material, const State& state) {
+  const double scale = state.scale.value_or(1);
+  for (std::vector<double>* sizes : {&material.length, &material.diameter})
+    for (double& size : *sizes) size *= scale;
+  for (double& k : material.k) k *= scale * scale;
+  return material;
+}
+
 bool has_width(const Material& material) { return !material.diameter.empty(); }
 
 bool are_spheres(const Material& material) {
   return has_width(material) &&
-         std::ranges::none_of(species_of(material), [](const Species& s) { return s.turns(); });
+         std::ranges::none_of(species_of(material), [](const Species& s) { return s.has_axis(); });
 }
 
 bool differ_in_inertia(const Material& material) {

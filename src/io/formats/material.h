@@ -58,6 +58,8 @@ std::vector<bool> which_differ(const State& state, std::size_t species);
 /// The lengths of the species, and their diameters, 0 of needles.
 std::vector<double> lengths_of(const Material& material);
 std::vector<double> diameters_of(const Material& material);
+/// As the bodies are in a state, where they grow.
+Material grown(Material material, const State& state);
 /// Whether they are rods of finite width or spheres, and whether all of them are spheres.
 bool has_width(const Material& material);
 bool are_spheres(const Material& material);

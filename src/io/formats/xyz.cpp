@@ -179,7 +179,7 @@ PartOfFile find_xyz_frame(InputText& file, const std::string& path,
 class XyzWriter : public FrameWriter {
  public:
   XyzWriter(const std::string& path, bool force, const Material& material)
-      : material_(text_of(material)),
+      : material_(material),
         all_(species_of(material)),
         wide_(has_width(material)),
         are_spheres_(are_spheres(material)),
@@ -194,6 +194,7 @@ class XyzWriter : public FrameWriter {
     const State& state = frame.state;
     const TiltedCell cell(state);
     const bool are_own = !state.own_bodies.empty();
+    const std::string of_species = text_of(grown(material_, state));
     const auto [a, b, c] = cell.vectors();
     file_.print(
         "{}\nLattice=\"{} {} {}\" Properties=species:S:1:pos:R:3:id:I:1:velo:R:3:"
@@ -206,7 +207,7 @@ class XyzWriter : public FrameWriter {
     file_.print("{}", text_of_flow(state));
     const auto letter = [&](std::size_t axis) { return state.periodic[axis] ? 'T' : 'F'; };
     file_.print(" pbc=\"{} {} {}\"{}{}\n", letter(0), letter(1), letter(2),
-                material_.empty() ? "" : " ", material_);
+                of_species.empty() ? "" : " ", of_species);
     for (std::size_t i = 0; i < state.size(); ++i) {
       const auto r = cell.position(i);
       const auto& v = state.velocity[i];
@@ -233,7 +234,7 @@ class XyzWriter : public FrameWriter {
     return out;
   }
 
-  std::string material_;
+  Material material_;
   std::vector<Species> all_;
   bool wide_, are_spheres_;
   std::vector<std::string> endings_;  // of a line, for each species of equal bodies

@@ -22,7 +22,11 @@ std::optional<Violation> rods_are_rough(const Scene& scene) {
   const Composition composition = scene.composition();
   if (!composition.has_width() || !composition.is_rough()) return {};
   constexpr const char* reason =
-      "expected -1 for rods of finite width: what turns them about their axes is not simulated";
+      "expected -1 of pairs with a rod of finite width: what turns it about its axis is not "
+      "simulated";
+  const auto are_smooth = [&](std::size_t a, std::size_t b) {
+    return composition.exclude(a, b) && !composition.are_spheres(a, b);
+  };
   const auto index_of = [&](const std::string& name) {
     return static_cast<std::size_t>(std::ranges::find(scene.species, name, &Species::name) -
                                     scene.species.begin());
@@ -31,14 +35,13 @@ std::optional<Violation> rods_are_rough(const Scene& scene) {
     const double beta = scene.pairs[n].beta.value_or(-1);
     const std::size_t a = index_of(scene.pairs[n].between[0]),
                       b = index_of(scene.pairs[n].between[1]);
-    if (beta == -1 || std::max(a, b) >= scene.species.size() || !composition.exclude(a, b))
-      continue;
+    if (beta == -1 || std::max(a, b) >= scene.species.size() || !are_smooth(a, b)) continue;
     return Violation{
         .key = key_of_entry("pairs.beta", n), .value = fmt::to_string(beta), .reason = reason};
   }
   for (std::size_t a = 0; a < composition.size(); ++a) {
     for (std::size_t b = a; b < composition.size(); ++b) {
-      if (!composition.restitution(a, b).is_rough() || !composition.exclude(a, b)) continue;
+      if (!composition.restitution(a, b).is_rough() || !are_smooth(a, b)) continue;
       return Violation{.key = "collisions.beta",
                        .value = fmt::to_string(scene.collisions.beta),
                        .reason = reason};

@@ -119,7 +119,7 @@ SceneSection driving_section() {
               {"growth.until_packing",
                Aspect::effects,
                {1e-9, 1},
-               "a number > 0, at most 1",
+               "a number > 0 (from 1e-9 to 1)",
                [](Scene& s, V v, R r) { return store(growth_of(s).until_packing, number(v, r)); }},
               {"growth.until_pressure",
                Aspect::effects,
@@ -133,7 +133,7 @@ SceneSection driving_section() {
                [](Scene& s, V v, R r) { return store(growth_of(s).cool_every, number(v, r)); }},
           },
       .rules = {{Aspect::effects, thermostat_is_beside_gravity},
-                {Aspect::effects, thin_or_fixed_bodies_grow},
+                {Aspect::bodies, thin_or_fixed_bodies_grow},
                 {Aspect::effects, growth_is_beside_other_driving},
                 {Aspect::room, has_grown_at_the_start}},
   };

@@ -105,6 +105,15 @@ std::optional<Violation> no_walls_to_observe(const Scene& scene) {
   return {};
 }
 
+std::optional<Violation> no_growth_to_observe(const Scene& scene) {
+  if (scene.driving.growth || std::ranges::find(scene.output.observables, contact_network_name) ==
+                                  scene.output.observables.end())
+    return {};
+  return Violation{.key = "output.observables",
+                   .value = in_quotes(contact_network_name),
+                   .reason = "expected a driving.growth, whose pressure tells which bodies touch"};
+}
+
 std::optional<Violation> contacts_carry_momentum(const Scene& scene) {
   if (!scene.collisions.sliding) return {};
   if (std::ranges::find(scene.output.observables, pressure_tensor_name) ==
@@ -167,7 +176,9 @@ SceneSection output_section() {
                "a number >= 0 of seconds; 0: none",
                [](Scene& s, V v, R r) { return store(s.output.checkpoint_every, number(v, r)); }},
           },
-      .rules = {{Aspect::effects, contacts_carry_momentum}, {Aspect::output, no_walls_to_observe}},
+      .rules = {{Aspect::effects, contacts_carry_momentum},
+                {Aspect::output, no_walls_to_observe},
+                {Aspect::output, no_growth_to_observe}},
       .exclusions = {{"output.series_per_decade", "output.series_every",
                       "expected either series_per_decade or series_every, not both",
                       Replaces::each_the_other},

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "src/composition/pair_name.h"
+#include "src/scene/own_bodies.h"
 #include "src/scene/printable.h"
 #include "src/scene/read_value.h"
 #include "src/scene/sections/sections.h"
@@ -90,8 +91,14 @@ std::optional<Violation> inertia_is_impossible(const Scene& scene) {
     if (scene.places.contains(key_of_entry("species.k", n))) return out;
     const double k =
         species.mass * (species.length * species.length) / (2 * *species.given_inertia);
-    if (!species.turns() || range_of_k.holds(k)) continue;
     if (species.drawn != DrawnSizes{}) continue;  // each body is looked at
+    if (!species.has_axis()) {
+      const Species made = scene.composition()[n];
+      if (made.q == 0 || is_inertia_of_sphere(numbers_of(made))) continue;
+      out.reason = std::string("expected ") + expected_inertia_of_sphere;
+      return out;
+    }
+    if (range_of_k.holds(k)) continue;
     out.reason = fmt::format("expected one with which k = m L^2 / (2 I) is from {:g} to {:g}",
                              range_of_k.least, range_of_k.greatest);
     return out;

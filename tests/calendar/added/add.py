@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Adds a calendar to a copy of the sources, by the steps of docs/contributing.md and no others.
+"""Adds a calendar to a copy of the sources, by the steps of src/calendar/README.md and no others.
 
     add.py SOURCE COPY    SOURCE: the root of the sources; COPY: a folder for what changes
 """

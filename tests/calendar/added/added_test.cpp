@@ -1,4 +1,4 @@
-// A calendar that was added as docs/contributing.md says is there everywhere. The tests of all
+// A calendar that was added as src/calendar/README.md says is there everywhere. The tests of all
 // calendars are part of this program, too.
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The smallest calendar: it looks through all needles for the next event. A test adds it as
-// docs/contributing.md says.
+// src/calendar/README.md says.
 #pragma once
 
 #include "src/calendar/calendar.h"

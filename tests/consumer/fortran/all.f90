@@ -9,6 +9,7 @@ program all
   type(needlework_pair_sizes) :: sizes
   type(needlework_rods) :: rods
   type(needlework_contacts) :: contacts
+  type(needlework_growth) :: growth
   type(needlework_gas) :: theory
   type(needlework_error) :: error
   character(kind=c_char), target :: notes(4) = ['{', '"', 'a', '"'], more(2) = [':', '}']
@@ -54,6 +55,8 @@ program all
 
   call require(needlework_get_contacts(gas, contacts))
   print '(a, i0, 2f4.1)', 'contacts ', contacts%entered, contacts%time, contacts%share
+  call require(needlework_get_growth(gas, growth))
+  print '(a, 3f4.1)', 'growth ', growth%scale, growth%rate, growth%packing_fraction
 
   call require(needlework_sample(gas, 1_c_int))
   call require(needlework_set_data(gas, 'bytes' // c_null_char, needlework_data_bytes, c_loc(bytes), &

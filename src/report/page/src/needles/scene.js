@@ -112,6 +112,8 @@ export class NeedleScene {
     this.shares = shares && numbers(shares);
     this.widths = widths && numbers(widths);
     this.haveWidth = diameter !== undefined;
+    this.length = length;
+    this.width = diameter ?? 0.035 * length;
     this.renderer = new three.WebGLRenderer({ canvas, antialias: !drawnByCpu(), powerPreference: "low-power" });
     this.camera = new three.PerspectiveCamera(35, 1, 0.1, 1000);
     this.camera.up.set(0, 0, 1);
@@ -125,7 +127,7 @@ export class NeedleScene {
       range: { value: new three.Vector2(0, 1) },
       pixel: { value: 0 },
       lens: { value: new three.Vector2() },
-      width: { value: diameter ?? 0.035 * length },
+      width: { value: this.width },
       depth: { value: new three.Vector2(0, 1) },
       palette: { value: null },
       background: { value: new three.Color() },
@@ -146,12 +148,14 @@ export class NeedleScene {
 
   /** What is drawn lies between the corners `low` and `high`, its middle in the origin. Arrays of a
    * frame: `position` between the corners in units of 1 / 65536, `orientation` in units of 1 / 32767;
-   * `walls`: the place of each along its axis. */
-  showFrame({ low, high, walls, position, orientation }) {
+   * `walls`: the place of each along its axis; `scale`: the sizes of bodies that grow. */
+  showFrame({ low, high, walls, position, orientation, scale = 1 }) {
     const box = high.map((end, axis) => end - low[axis]);
     const sameBox = this.box.scale.equals(new three.Vector3(...box));
     this.walls.forEach((wall, n) => wall.place(walls[n], low, high));
     this.uniforms.box.value.set(...box);
+    this.uniforms.needleLength.value = scale * this.length;
+    this.uniforms.width.value = scale * this.width;
     this.box.scale.set(...box);
     this.setCount(position.length / 3);
     this.setAttribute("centre", position, 3, true);

@@ -81,13 +81,19 @@ function wallFact({ axis, side, epsilon, temperature, motion }) {
   return [`Wall at ${axis} ${side}`, parts.join(", ")];
 }
 
-function drivingFacts({ kicks, andersen }) {
+function growthText({ rate, until_packing: packing, until_pressure: pressure }) {
+  const ends = [packing && `to a packing fraction of ${numberText(packing)}`, pressure && `to P V / (N T) = ${numberText(pressure)}`];
+  return [`rate ${numberText(rate)}`, ...ends.filter(Boolean)].join(", ");
+}
+
+function drivingFacts({ kicks, andersen, growth }) {
   return [
     kicks && [
       "Kicks",
       `every ${numberText(kicks.every)}, ξ_tr = ${numberText(kicks.translational)}, ξ_rot = ${numberText(kicks.rotational)}`,
     ],
     andersen && ["Thermostat", `T = ${numberText(andersen.temperature)} at the rate ${numberText(andersen.rate)} of each needle`],
+    growth && ["Growth", growthText(growth)],
   ].filter(Boolean);
 }
 
@@ -143,6 +149,16 @@ function resultsOfContacts({ groups }) {
     `Contacts: ${name.replaceAll("_", " ")}`,
     column(dataset).at(-1),
   ]);
+}
+
+// Bodies that grow, at the last sample.
+function resultsOfGrowth({ groups }) {
+  return ["growth", "contact_network"].flatMap((group) =>
+    Object.entries(groups[group]?.datasets ?? {}).map(([name, dataset]) => [
+      `${group === "growth" ? "Growth" : "Network"}: ${name.replaceAll("_", " ")}`,
+      column(dataset).at(-1),
+    ]),
+  );
 }
 
 // Temperatures of each species at the last sample, and collisions of each two.
@@ -230,6 +246,7 @@ export function resultsOfRun(run) {
     ...results,
     ...rest.map((name) => [name.replaceAll("_", " "), last(name)]),
     ...resultsOfContacts(run),
+    ...resultsOfGrowth(run),
     ...resultsAtWalls(run),
     ...resultsBySpecies(run),
   ];

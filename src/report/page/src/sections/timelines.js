@@ -355,6 +355,26 @@ const timelines = [
     caption: "Since the start.",
   },
   {
+    group: "growth", title: "Packing fraction", y: "packing fraction",
+    curves: plain("growth", [["packing_fraction", "packing fraction"]]),
+    caption: "Share of the volume of the box that bodies take up as they grow.",
+  },
+  {
+    group: "growth", title: "Pressure of bodies that grow", y: "P V / (N T)", log: "y",
+    curves: plain("growth", [["pressure", "P V / (N T)"]]),
+    caption: "By the virial, over the last collisions of all bodies.",
+  },
+  {
+    group: "contact_network", title: "Contacts per body", y: "contacts",
+    curves: plain("contact_network", [["contacts", "contacts"]]),
+    caption: "Mean of the bodies that are no rattlers.",
+  },
+  {
+    group: "contact_network", title: "Rattlers", y: "bodies",
+    curves: plain("contact_network", [["rattlers", "rattlers"]]),
+    caption: "Bodies that too few contacts hold, taken off again and again.",
+  },
+  {
     group: "flow_order", title: "Order of the flow, S", y: "S", log: "xy", curves: flowOrder,
     caption: "Energy of the flow of the cells, divided by that of the motion relative to it.",
   },
