@@ -209,7 +209,7 @@ double Audit::packing_fraction() const {
   constexpr double pi = boost::math::constants::pi<double>();
   long double sum = 0;
   for (const Needle& needle : needles_) {
-    const auto& [species, length, mass, k, diameter] = needle.body;
+    const double length = needle.body.length, diameter = needle.body.diameter;
     sum += pi * diameter * diameter * (diameter / 6 + length / 4);
   }
   return static_cast<double>(sum) / (space_.box[0] * space_.box[1] * space_.box[2]);
