@@ -93,9 +93,9 @@ class Simulation {
   /// on.
   void on_collision_times(std::function<void(std::span<const double>)> callback);
 
-  /// Sets a function that is called after each kick of all needles, before anything else happens at
-  /// its instant: time() and copy() are those with which the run goes on. If it throws, the
-  /// simulation cannot go on.
+  /// Sets a function that is called after each kick of all needles, and after the velocities of
+  /// bodies that grow have been scaled back, before anything else happens at that instant: time()
+  /// and copy() are those with which the run goes on. If it throws, the simulation cannot go on.
   void on_kick(std::function<void()> callback);
 
   /// Stops `advance` soon, with one thread before the next event: the call in progress, or else the

@@ -111,11 +111,6 @@ InputError unexpected(Happening::Kind kind) {
                     "needles that slide, contacts");
 }
 
-Instant instant_of(double time, double epoch_length) {
-  const double epochs = time / epoch_length, whole = std::floor(epochs);
-  return {static_cast<std::int64_t>(whole), epochs - whole};
-}
-
 }  // namespace
 
 const char* name(Kind kind) {
@@ -156,6 +151,7 @@ Audit::Audit(const State& initial, const Setup& setup)
   if (setup.driving.kicks) {
     kicks_.emplace(*setup.driving.kicks, setup.scene_seed, setup.epoch_length, unit_);
   }
+  if (setup.driving.growth) let_grow(*setup.driving.growth);
   if (setup.composition.has_width()) findings_.overlaps.emplace();
   has_collided_.assign(initial.size(), false);
   joints_.resize(initial.size());
@@ -183,6 +179,25 @@ Audit::Index Audit::index_of(std::uint32_t id) const {
 
 bool Audit::meet(Index i, Index j) const {
   return setup_.composition.meets(needles_[i].body.species, needles_[j].body.species);
+}
+
+void Audit::let_grow(const Scene::Growth& growth) {
+  if (setup_.tc_relative) {
+    throw InputError(
+        "an audit of driving.growth: expected no collisions.tc_relative, whose mean free time is "
+        "measured as bodies grow: collisions.tc can be audited");
+  }
+  space_.growth.emplace(growth_of(growth, needles_));
+  space_.longest = std::ranges::min(space_.box);
+  if (const auto collisions = Cooling::collisions_of(growth, needles_.size()))
+    cooling_.emplace(*collisions, needles_);
+}
+
+// Records of all at one instant; their sizes at the start stay.
+std::vector<Needle> Audit::replaced(const State& after, const Instant& now) const {
+  std::vector<Needle> out = needles_of(after, now, bodies_, setup_.epoch_length, unit_);
+  for (Index i = 0; i < out.size(); ++i) out[i].body = needles_[i].body;
+  return out;
 }
 
 // Of pairs that pass through each other, there is nothing to check.
@@ -320,68 +335,6 @@ void Audit::go_on_if_resumed() {
   }
 }
 
-double Audit::next_kick() const {
-  return static_cast<double>(findings_.kicks + 1) * setup_.driving.kicks->every;
-}
-
-void Audit::add_kick(const State& after) {
-  if (!kicks_) throw InputError("kick: expected none in this scene");
-  if (after.id != ids_) throw InputError("state after a kick: expected the needles of the run");
-  const Instant now = instant_of(next_kick(), setup_.epoch_length);
-  ++findings_.kicks;
-  note_in_fingerprint(static_cast<std::uint64_t>(now.epoch));
-  note_in_fingerprint(std::bit_cast<std::uint64_t>(now.offset));
-  settle_cuts(now, true);
-  check_owed(now, nullptr);
-  advance_windows(now);
-  std::vector<Needle> kicked = needles_of(after, now, bodies_, setup_.epoch_length, unit_);
-  const double before = energy();
-  if (!resumed_) check_kick(now, kicked);
-  needles_ = std::move(kicked);
-  part_all(now);
-  last_energy_change_ = energy() - before;
-  windows_.begin_again(now, needles_);
-  // What it brings about at its instant begins a new order.
-  last_ = {now, {-1, 0, 0, 0, 0, 0}};
-  go_on_if_resumed();
-}
-
-// What happens at the instant of a kick happens before it.
-void Audit::check_kick(const Instant& now, const std::vector<Needle>& after) {
-  Kicks::Change of_all{};
-  Quad mass = 0;
-  double largest = 0;
-  std::vector<Kicks::Change> changes;
-  for (Index i = 0; i < needles_.size(); ++i) {
-    const Kicks::Change& change = changes.emplace_back(kicks_->of(ids_[i], findings_.kicks));
-    const Quad its_mass = needles_[i].body.moving_mass();
-    of_all.v = of_all.v + change.v * its_mass;
-    of_all.v_off += change.v_off * needles_[i].body.moving_mass();
-    mass += its_mass;
-    largest = std::max(largest, magnitude(norm(change.v)));
-  }
-  if (mass > 0) {
-    of_all.v = of_all.v * Quad(1 / mass);
-    of_all.v_off /= magnitude(mass);
-  }
-  for (Index i = 0; i < needles_.size(); ++i) {
-    if (now < needles_[i].record.time) {
-      report(Kind::wrong_order, i, i, now);
-      continue;
-    }
-    check_held(i, now);
-    if (excess_over_kick(present(i, now), space_.gravity, after[i].record, changes[i], of_all,
-                         largest, space_) > 1) {
-      report(Kind::wrong_rule, i, i, now);
-    }
-    check_walls(i, now, nullptr);
-    for (Index j = i + 1; j < needles_.size(); ++j) {
-      check_flight(i, j, now);
-      go_on_from_contact(i, j, now);
-    }
-  }
-}
-
 // The flights of a needle that end now, with all others but one.
 void Audit::check_partners(Index mine, Index besides, const Instant& now) {
   for (Index other = 0; other < needles_.size(); ++other) {
@@ -425,7 +378,7 @@ void Audit::check_hit(Index i, const Instant& now, const Collision& hit) {
   const Wall& wall = walls_[hit.second];
   const bool by_contact_time = hit.contact_time_rule;
   const double time = since_start(now) * setup_.epoch_length;
-  if (excess_over_wall_rule(needle, space_.gravity, wall, now, hit, space_) > 1 ||
+  if (excess_over_wall_rule(needle, wall, now, hit, space_) > 1 ||
       by_contact_time != (!wall.draws && hit_is_elastic(i, now, by_contact_time)) ||
       std::abs(hit.time - time) > 0x1p-50 * time) {
     report_at_wall(Kind::wrong_rule, i, hit.second, now, 0);
@@ -433,7 +386,7 @@ void Audit::check_hit(Index i, const Instant& now, const Collision& hit) {
   // Of a needle in contact, from the present on.
   const double duration = elapsed<double>(needle.record.time, now).middle;
   const double flown = elapsed<double>(needles_[i].record.time, now).middle;
-  const TipFlight tip(needle, space_.gravity, wall, hit.arm_first > 0 ? 1 : -1);
+  const TipFlight tip(needle, space_, wall, hit.arm_first > 0 ? 1 : -1);
   const double height = tip.height(duration), rate = tip.rate(duration);
   const double off =
       tip_tolerance(needle) + std::abs(rate) * (relative_tolerance * flown + 2 * resolution);
@@ -459,7 +412,7 @@ void Audit::check_walls(Index i, const Instant& now, const Collision* hit) {
   for (std::size_t wall = 0; wall < walls_.size(); ++wall) {
     for (const int tip : {1, -1}) {
       if (tip > 0 && needle.body.length == 0) continue;  // a sphere has both in one place
-      const TipFlight flight(guide, duration, space_.gravity, walls_[wall], tip);
+      const TipFlight flight(guide, duration, space_, walls_[wall], tip);
       const auto crossing = flight.crossing(0, duration, tolerance);
       if (!crossing) continue;
       const bool is_of_hit = hit && hit->second == wall && (hit->arm_first > 0) == (tip > 0);
@@ -478,6 +431,7 @@ void Audit::follow(const Instant& now, const Happening& happening,
     const Index index = index_of(i == 0 ? event.first : event.second);
     const StateAfterCollision& after = event.after[static_cast<std::size_t>(i)];
     if (setup_.sliding) cut_contact(index, now);
+    if (cooling_) cooling_->add_flight(needles_[index], space_.gravity, now);
     needles_[index] = Needle(Record{now, vector(after.position), vector(after.velocity),
                                     vector(after.orientation), vector(after.angular_velocity)},
                              needles_[index].body);
@@ -485,6 +439,10 @@ void Audit::follow(const Instant& now, const Happening& happening,
     has_collided_[index] = true;
     met_[index] = now;
     if (happening.kind == Happening::wall) last_touches_[index].note(LastTouches::wall, now);
+  }
+  if (cooling_ && happening.is_collision()) {
+    const Needle &a = needles_[index_of(event.first)], &b = needles_[index_of(event.second)];
+    cooling_->add_collision(dot(nearest_separation(a, b), vector(event.impulse)));
   }
   if (judgement) {
     note_meeting(index_of(event.first), index_of(event.second), now, judgement->crowded);
@@ -502,7 +460,7 @@ bool Audit::finish(double time, const std::function<bool()>& stop) {
                      " collisions: expected at least the " +
                      std::to_string(resumed_->findings.collisions) + " of the interrupted audit");
   }
-  const Instant end = instant_of(time, setup_.epoch_length);
+  const Instant end = instant_at(time / setup_.epoch_length);
   Checkpoint before = checkpoint();
   bool stopped = false;
   settle_cuts(end, true);
@@ -561,9 +519,9 @@ void Audit::check_rule(Index a, Index b, const Instant& now, const Collision& co
   }
 }
 
-// Those of gases with walls, gravity or a thermostat are not.
+// Those of gases with walls, gravity, a thermostat or growth are not.
 bool Audit::follows_windows() const {
-  return walls_.empty() && norm(space_.gravity) == 0 && !setup_.driving.andersen;
+  return walls_.empty() && norm(space_.gravity) == 0 && !setup_.driving.andersen && !space_.growth;
 }
 
 // Beside walls the threshold of needles that slide, which is the contact time of hits, is what the

@@ -18,6 +18,7 @@
 #include "needlework/composition.h"
 #include "needlework/simulation.h"
 #include "src/audit/contact_finder.h"
+#include "src/audit/cooling.h"
 #include "src/audit/encounters.h"
 #include "src/audit/guided_flight.h"
 #include "src/audit/joint_motion.h"
@@ -63,6 +64,7 @@ struct Findings {
   std::uint64_t hits = 0;        ///< hits on walls received; the same
   std::uint64_t draws = 0;       ///< events of a thermostat received; their rule is not checked
   std::uint64_t kicks = 0;       ///< of all needles; the rule is checked for each needle
+  std::uint64_t coolings = 0;    ///< of bodies that grow; the same
   std::uint64_t entered = 0;     ///< collisions that began a sliding contact
   std::uint64_t ended = 0;       ///< ends of sliding contacts received
   std::uint64_t at_walls = 0;    ///< flights of a needle that are checked against all walls
@@ -75,7 +77,7 @@ struct Findings {
   std::array<std::uint64_t, kinds.size()> differences{};
   std::vector<Difference> listed;  ///< the first differences
 
-  std::uint64_t events() const { return collisions + hits + draws + kicks + ended; }
+  std::uint64_t events() const { return collisions + hits + draws + kicks + coolings + ended; }
   std::uint64_t count(Kind kind) const { return differences[static_cast<std::size_t>(kind)]; }
   bool clean() const { return differences == std::array<std::uint64_t, kinds.size()>{}; }
   /// Upper limit, with 95 % confidence, on the fraction of collisions and hits that differ in this
@@ -146,10 +148,10 @@ class Audit {
   /// The same for all that happens. Of a thermostat it is checked that the needle goes on from
   /// where it was, not which velocities it gets. Throws InputError for events of other kinds.
   void add(const Happening& happening);
-  /// Adds a kick of all needles: `after` is the state at its instant, in order of id, with which
-  /// the engine goes on, before anything else happens. Checks the flights of all needles and pairs
-  /// until then.
-  void add_kick(const State& after);
+  /// Adds a kick of all needles, or that the velocities of bodies that grow have been scaled back:
+  /// `after` is the state at this time [time], in order of id, with which the engine goes on,
+  /// before anything else happens. Checks the flights of all needles and pairs until then.
+  void add_kick(const State& after, double time);
   /// Ends the run and checks the last flights. If `stop` returns true between two flights, returns
   /// false and restores the previous state.
   bool finish(double time, const std::function<bool()>& stop = {});
@@ -206,7 +208,8 @@ class Audit {
     Start start;
   };
 
-  double next_kick() const;  ///< [time]
+  void let_grow(const Scene::Growth& growth);
+  std::vector<Needle> replaced(const State& after, const Instant& now) const;
   Index index_of(std::uint32_t id) const;
   /// The same for both orders.
   static std::uint64_t key_of(Index i, Index j) {
@@ -225,11 +228,14 @@ class Audit {
   Needle image_of(Index second, const Shift& shift, Index first) const;
   /// With velocities beside the flow of a sheared gas.
   std::vector<Needle> beside_flow(std::vector<Needle> needles, const Instant& now) const;
+  double reach_of_pair(Index i, Index j, const Instant& now) const;
   Shift nearest_image(const Approach& approach, double s) const;  ///< at this time of a flight
   void check_order(const Instant& now, const Happening& happening);
   void check_pair(const Instant& now, const Collision& collision,
                   const std::optional<Judgement>& judgement);
   void check_kick(const Instant& now, const std::vector<Needle>& after);
+  void check_cooling(const Instant& now, const std::vector<Needle>& after);
+  void check_replaced(const Instant& now, const std::function<double(Index)>& excess);
   void go_on_if_resumed();
   void note_in_fingerprint(std::uint64_t word);
   void advance_windows(const Instant& now);
@@ -302,6 +308,9 @@ class Audit {
   void follow(const Instant& now, const Happening& happening,
               const std::optional<Judgement>& judgement);
   double energy() const;
+  double packing_fraction() const;
+  bool has_no_room(double scale) const;
+  bool is_at_pressure(double pressure) const;
 
   Setup setup_;
   double unit_;                      ///< of lengths: a power of two that no needle is longer than
@@ -311,6 +320,7 @@ class Audit {
   std::vector<Needle> needles_;
   std::vector<Wall> walls_;
   std::optional<Kicks> kicks_;
+  std::optional<Cooling> cooling_;
   std::vector<bool> has_collided_;  ///< or hit a wall
   std::vector<Instant> met_;        ///< when a needle last did, ends of contacts apart
   Windows windows_;

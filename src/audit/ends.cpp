@@ -1,5 +1,6 @@
 // Whether a run begins with the gas of its scene, and ends where its scene says.
 #include <algorithm>
+#include <boost/math/constants/constants.hpp>
 #include <cmath>
 #include <limits>
 
@@ -39,8 +40,8 @@ bool Audit::is_proper(const Needle& needle) const {
 // Neither tip is in a wall.
 bool Audit::is_inside(const Needle& needle) const {
   return std::ranges::all_of(walls_, [&](const Wall& wall) {
-    return TipFlight(needle, space_.gravity, wall, 1).height(0) >= -tip_tolerance(needle) &&
-           TipFlight(needle, space_.gravity, wall, -1).height(0) >= -tip_tolerance(needle);
+    return TipFlight(needle, space_, wall, 1).height(0) >= -tip_tolerance(needle) &&
+           TipFlight(needle, space_, wall, -1).height(0) >= -tip_tolerance(needle);
   });
 }
 
@@ -158,6 +159,12 @@ void Audit::check_end(const Scene::Until& until, Stop reason, double time) {
   bool right = last <= latest * (1 + rounding) && time <= latest * (1 + rounding) &&
                last <= time * (1 + rounding);
   if (findings_.events() > 0) right &= collisions - 1 < most && before > least_energy - slack;
+  const auto& growth = setup_.driving.growth;
+  const double scale = space_.scale_at(instant_at(time / setup_.epoch_length));
+  const double packing = packing_fraction() * (scale * scale * scale);
+  if (growth) right &= packing <= growth->until_packing.value_or(1) * (1 + sums);
+  const bool has_moving_walls =
+      std::ranges::any_of(walls_, [](const Wall& wall) { return wall.velocity != 0; });
   switch (reason) {
     case Stop::time:
       right &= until.time && near(time, latest, rounding);
@@ -173,22 +180,65 @@ void Audit::check_end(const Scene::Until& until, Stop reason, double time) {
       right &= is_at_rest();
       break;
     case Stop::walls_meet:
+      right &= has_moving_walls;
+      break;
     case Stop::jammed:
-      right &= std::ranges::any_of(walls_, [](const Wall& wall) { return wall.velocity != 0; });
+      right &= has_moving_walls || (growth && !growth->until_pressure && is_at_pressure(1e6));
       break;
     case Stop::wall_time:
     case Stop::interrupted:
       return;
     case Stop::grown:
+      right &= growth && near(packing, growth->until_packing.value_or(packing), sums);
+      break;
     case Stop::pressure:
+      right &= growth && growth->until_pressure && is_at_pressure(*growth->until_pressure);
+      break;
     case Stop::no_room:
-      right &= setup_.driving.growth.has_value();
+      right &= growth && has_no_room(scale);
       break;
   }
-  if (reason == Stop::time) {
+  if (reason == Stop::time || reason == Stop::grown || reason == Stop::no_room) {
     right &= collisions < most && energy > least_energy - slack;
   }
   if (!right) report(Kind::wrong_end);
+}
+
+// Of the sizes at the start.
+double Audit::packing_fraction() const {
+  constexpr double pi = boost::math::constants::pi<double>();
+  long double sum = 0;
+  for (const Needle& needle : needles_) {
+    const double length = needle.body.length, diameter = needle.body.diameter;
+    sum += pi * diameter * diameter * (diameter / 6 + length / 4);
+  }
+  return static_cast<double>(sum) / (space_.box[0] * space_.box[1] * space_.box[2]);
+}
+
+// Whether bodies that grow are at this pressure for the first time. Where they are never cooled,
+// the times are not known at which it is measured.
+bool Audit::is_at_pressure(double pressure) const {
+  // The engine knows temperatures at the ends of windows only.
+  constexpr double roughly = 0.1;
+  return !cooling_ || (cooling_->pressure() > pressure * (1 - roughly) &&
+                       cooling_->pressure_before() < pressure * (1 + roughly));
+}
+
+// Whether the longest body, so much larger than at the start, has its whole length only between two
+// walls, or half of an edge that is periodic; to a hundredth.
+bool Audit::has_no_room(double scale) const {
+  double longest = 0;
+  for (const Needle& needle : needles_) longest = std::max(longest, scale * needle.body.extent());
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto each = static_cast<std::size_t>(axis);
+    double room = space_.box[each] / 2;
+    if (!space_.periodic[each]) {
+      room = space_.box[each];
+      for (const Wall& wall : walls_) room -= wall.axis == axis ? wall.amplitude : 0;
+    }
+    if (longest >= 0.99 * room) return true;
+  }
+  return false;
 }
 
 // Whether no two needles can ever meet: all pass through each other, or none turns, and all move
@@ -197,7 +247,7 @@ bool Audit::is_at_rest() const {
   const Scene::Driving& driving = setup_.driving;
   const bool passing = !setup_.composition.any_meet();
   if (!walls_.empty() || norm(space_.gravity) != 0 || driving.kicks || driving.andersen ||
-      (space_.rows && needles_.size() > 1 && !passing)) {
+      ((space_.rows || space_.growth) && needles_.size() > 1 && !passing)) {
     return needles_.empty();
   }
   if (needles_.size() < 2 || passing) return true;

@@ -1,8 +1,10 @@
 // Free flight of one needle since its last collision, for any type of numbers.
 #pragma once
 
+#include <cmath>
 #include <compare>
 #include <cstdint>
+#include <limits>
 
 #include "src/audit/ball.h"
 #include "src/audit/vector.h"
@@ -22,6 +24,25 @@ template <class Real>
 Ball<Real> elapsed(const Instant& from, const Instant& to) {
   const double epochs = static_cast<double>(to.epoch - from.epoch);  // exact
   return Ball<Real>(epochs) + (Ball<Real>(to.offset) - Ball<Real>(from.offset));
+}
+
+/// So many epochs after the start.
+inline Instant instant_at(double epochs) {
+  const double whole = std::floor(epochs);
+  return {static_cast<std::int64_t>(whole), epochs - whole};
+}
+
+/// So many epochs later, rounded as the engine does it. From 2^62 on times are not followed: the
+/// run is older than any.
+inline Instant later(const Instant& time, double epochs) {
+  constexpr double most_epochs = 0x1p62;
+  const double offset = time.offset + (epochs - std::floor(epochs));
+  const double carry = std::floor(offset);
+  const double whole = std::floor(epochs) + carry;
+  if (!(whole + static_cast<double>(time.epoch) < most_epochs)) {
+    return {std::numeric_limits<std::int64_t>::max(), 0};
+  }
+  return {time.epoch + static_cast<std::int64_t>(whole), offset - carry};
 }
 
 /// A needle just after its last collision. These numbers are considered exact.

@@ -32,6 +32,12 @@ Shift Audit::nearest_image(const Approach& approach, double s) const {
   return nearest;
 }
 
+// Until now, when they are largest.
+double Audit::reach_of_pair(Index i, Index j, const Instant& now) const {
+  const double scale = space_.scale_at(now);
+  return reach_of(needles_[i].body.grown(scale), needles_[j].body.grown(scale));
+}
+
 std::optional<Continuation> Audit::take_continuation(Index i, Index j) {
   const auto found = continuations_.find(key_of(i, j));
   if (found == continuations_.end()) return std::nullopt;
@@ -52,7 +58,7 @@ void Audit::check_flight(Index i, Index j, const Instant& now) {
   const Approach approach = approach_of(i, j, duration);
   std::optional<Continuation> continuation;
   if (!continuations_.empty()) continuation = take_continuation(i, j);
-  const double reach = reach_of(needles_[i].body, needles_[j].body) + approach.bow;
+  const double reach = reach_of_pair(i, j, now) + approach.bow;
   for_each_encounter(approach, reach, duration, space_, [&](const Encounter& encounter) {
     check_apart({i, j, approach, encounter, duration,
                  start_of(separation(approach, 0, encounter.shift, space_.box), continuation)});
@@ -77,7 +83,7 @@ void Audit::check_contact(Index a, Index b, const Instant& now) {
   const Approach approach = approach_of(a, b, duration);
   const Shift nearest = nearest_image(approach, duration);
   const std::optional<Continuation> continuation = take_continuation(a, b);
-  const double reach = reach_of(needles_[a].body, needles_[b].body) + approach.bow;
+  const double reach = reach_of_pair(a, b, now) + approach.bow;
   bool met = false;
   for_each_encounter(approach, reach, duration, space_, [&](const Encounter& encounter) {
     const Flown flown{

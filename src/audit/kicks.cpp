@@ -10,7 +10,7 @@
 namespace needlework::audit {
 namespace {
 
-constexpr double half_unit = 0x1p-53;
+constexpr double half_unit_of_kicks = 0x1p-53;
 
 // Standard normal numbers of one needle and kick, by the definition in docs/physics.md: the words
 // of Philox-4x64-10 one after the other, each the upper 53 bits of a number in [0, 1); two of them
@@ -56,7 +56,7 @@ class Normals {
       const Quad minus_log = -log(squared), scale = sqrt(Quad(2 * minus_log / squared));
       // Rounding makes squares off by two half units, of which the logarithm, which is near 0 next
       // to the circle, takes its share over itself, and the root half of that.
-      return {x * scale, y * scale, half_unit * magnitude(Quad(scale / minus_log))};
+      return {x * scale, y * scale, half_unit_of_kicks * magnitude(Quad(scale / minus_log))};
     }
   }
 
@@ -90,7 +90,8 @@ double excess_over_kick(const Needle& before, const Vector<double>& gravity, con
   add_place(excess, there, after.r, after.u, space);
   // Directors are off by half units, which grow with the angle turned; changes by what logarithm
   // and roots round.
-  const double off = 16 * half_unit * (2 + there.turned + there.flown / before.body.extent());
+  const double off =
+      16 * half_unit_of_kicks * (2 + there.turned + there.flown / before.body.extent());
   const double speed = magnitude(norm(there.v)) + largest;
   const double spin = magnitude(norm(there.w)) + magnitude(norm(change.w));
   const Vector<Quad> v = there.v + change.v - of_all.v;

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "src/audit/flight.h"
+#include "src/audit/growth.h"
 #include "src/audit/rows.h"
 
 namespace needlework::audit {
@@ -16,7 +17,8 @@ namespace needlework::audit {
 /// Number of boxes added to the second needle's centre.
 using Shift = std::array<std::int32_t, 3>;
 
-/// What a needle is made of. Lengths of an audit are in a unit that no needle is longer than.
+/// What a needle is made of, at the start. Lengths of an audit are in a unit that no needle is
+/// longer than then.
 struct AuditedBody {
   std::size_t species = 0;  ///< index
   double length = 1, mass = 1, k = 6;
@@ -29,6 +31,15 @@ struct AuditedBody {
   /// Its mass in sums over all that move: 0 of fixed ones, whose mass is infinite.
   double moving_mass() const { return std::isinf(mass) ? 0 : mass; }
   double extent() const { return length + diameter; }  ///< from end to end [L]
+  /// With lengths as many times as large, and the same mass and moment of inertia.
+  AuditedBody grown(double scale) const {
+    AuditedBody out = *this;
+    out.length *= scale;
+    out.diameter *= scale;
+    out.k *= scale * scale;
+    out.q /= scale * scale;
+    return out;
+  }
   template <class Real>
   Real inverse_mass() const {
     return std::isinf(mass) ? Real(0) : 1 / Real(mass);
@@ -85,12 +96,17 @@ struct Start {
 /// The gas that the pairs belong to.
 struct Space {
   std::array<double, 3> box{};
-  double longest = 1;  ///< length of the longest needle
+  double longest = 1;  ///< length of the longest needle, at any time
   std::array<bool, 3> periodic{true, true, true};
-  Vector<double> gravity{};       ///< acceleration of all needles [L / time^2]
-  double outside = 0;             ///< by so much coordinates may be beyond the box [L]
-  std::optional<Rows> rows = {};  ///< of images, where they slide
+  Vector<double> gravity{};           ///< acceleration of all needles [L / time^2]
+  double outside = 0;                 ///< by so much coordinates may be beyond the box [L]
+  std::optional<Rows> rows = {};      ///< of images, where they slide
+  std::optional<Growth> growth = {};  ///< of all bodies
 
+  /// Present lengths, those at the start being 1.
+  double scale_at(const Instant& now) const {
+    return growth ? static_cast<double>(growth->scale_at(now)) : 1;
+  }
   /// The number of boxes nearest to a distance along an axis; 0 where there are no images.
   template <class Real>
   Real boxes_along(int axis, const Real& distance) const {

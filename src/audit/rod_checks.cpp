@@ -22,7 +22,7 @@ double Audit::after_overlap(const Flown& flown, RodFlight& pair) const {
 }
 
 void Audit::keep_if_overlapping(const Flown& flown, RodFlight& pair) {
-  if (pair.at(flown.duration).most < pair.contact() - pair.limit(flown.duration)) {
+  if (pair.at(flown.duration).most < pair.contact(flown.duration) - pair.limit(flown.duration)) {
     keep_continuation(flown, {Start::overlapping, -1, {}});
   }
 }
@@ -66,14 +66,14 @@ void Audit::check_rods_touching(const Flown& flown) {
   largest.at_most = std::max(largest.at_most, pair.certified(now));
   largest.at_collisions = std::max(largest.at_collisions, pair.overlap_at(now));
   const RodFlight::Distance there = pair.at(now);
-  const bool overlaps = there.most < pair.contact() - pair.limit(now);
+  const bool overlaps = there.most < pair.contact(now) - pair.limit(now);
   const double off =
       pair.limit(now) + std::abs(there.rate) * (relative_tolerance * now + 2 * resolution);
   if (overlaps) {
     differs(Kind::late, now);
   } else if (before) {
     differs(Kind::missed, *before);
-  } else if (there.least > pair.contact() + off) {
+  } else if (there.least > pair.contact(now) + off) {
     // About to meet, or far from it.
     const auto later = pair.overlap(now, now + early_reach / pair.rate());
     differs(later ? Kind::early : Kind::spurious, now);

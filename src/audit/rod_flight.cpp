@@ -24,9 +24,10 @@ enum class Nearest { sides, end_of_first, end_of_second, points };
 template <class Number>
 struct Rods {
   Vector<Number> r, u1, u2;
+  Number grown = 1;  ///< lengths as multiples of those at which arms are given
 };
 
-/// What is nearest, roughly: any points bound the distance from above.
+/// What is nearest, roughly: any points bound the distance from above. Arms grow with the rods.
 struct Arms {
   Nearest kind = Nearest::points;
   double first = 0, second = 0;
@@ -34,7 +35,8 @@ struct Arms {
 
 template <class Number>
 Vector<Number> between(const Rods<Number>& rods, const Arms& arms) {
-  return rods.r + rods.u1 * Number(arms.first) - rods.u2 * Number(arms.second);
+  return rods.r + rods.u1 * (Number(arms.first) * rods.grown) -
+         rods.u2 * (Number(arms.second) * rods.grown);
 }
 
 /// The best of all candidates: both lines, and each end with the other axis.
@@ -126,9 +128,14 @@ RodFlight::Motion<Real> RodFlight::motion() const {
     }
   };
   const std::array flights = {flight(first_, 0), flight(second_, 1)};
+  Ball<Real> growth = 0;
+  if (space_.growth) {
+    const Quad rate = space_.growth->relative_rate_at(begin);
+    growth = {Real(rate), magnitude(rate) * unit_roundoff<Real>};
+  }
   return {flights, delay,
           separation(flights[0], flights[1], delay[0], delay[1], shift_, space_.box),
-          flights[0].v - flights[1].v};
+          flights[0].v - flights[1].v, growth};
 }
 
 RodFlight::RodFlight(const Needle& first, const Needle& second, const Shift& shift,
@@ -138,9 +145,10 @@ RodFlight::RodFlight(const Needle& first, const Needle& second, const Shift& shi
       shift_{{double(shift[0]), double(shift[1]), double(shift[2])}},
       space_(space.around(first.record.r).around(second.record.r)),
       slack_(slack),
-      contact_(0.5 * (first.body.diameter + second.body.diameter)),
-      size_(0.5 * (first.body.length + second.body.length) + contact_),
-      half_lengths_{0.5 * first.body.length, 0.5 * second.body.length},
+      scale_(space.scale_at(std::max(first.record.time, second.record.time))),
+      contact_(0.5 * (first.body.diameter + second.body.diameter) * scale_),
+      size_(0.5 * (first.body.length + second.body.length) * scale_ + contact_),
+      half_lengths_{0.5 * first.body.length * scale_, 0.5 * second.body.length * scale_},
       omega_{upper(first.flight.omega), upper(second.flight.omega)},
       motion_(motion<double>()) {
   for (std::size_t i = 0; i < 2; ++i) {
@@ -150,7 +158,9 @@ RodFlight::RodFlight(const Needle& first, const Needle& second, const Shift& shi
   }
   distance_ = upper(norm(motion_.r));
   centres_ = upper(norm(motion_.v));
-  speed_ = (centres_ + half_lengths_[0] * omega_[0] + half_lengths_[1] * omega_[1]) * upward;
+  growth_ = upper(motion_.growth);
+  speed_ = (centres_ + growth_ * size_) * upward;
+  tips_ = half_lengths_[0] * omega_[0] + half_lengths_[1] * omega_[1];
 }
 
 const RodFlight::Motion<Quad>& RodFlight::in_quad() {
@@ -165,19 +175,22 @@ double RodFlight::limit(double s) const {
     const double age = delays_[i] + std::abs(s);
     const double extent = (i == 0 ? first_ : second_).body.extent();
     lengths += velocity_[i] * delays_[i] + norm((i == 0 ? first_ : second_).record.r);
-    directors += half_lengths_[i] * (2 + omega_[i] * age);
+    directors += half_lengths_[i] * grown(s) * (2 + omega_[i] * age);
     renewed =
         renewed || velocity_[i] * age > longest_record * extent || omega_[i] * age > longest_record;
   }
-  return most_overlap * contact_ + 4 * half_unit_of_rods * (lengths + directors) +
-         (renewed ? space_.rounding() : 0) + speed_ * (2 * resolution + slack_);
+  const double sizes =
+      space_.growth ? space_.growth->off(scale_ * grown(s)) * size_ * grown(s) : 0.0;
+  return most_overlap * contact(s) + 4 * half_unit_of_rods * (lengths + directors) + sizes +
+         (renewed ? space_.rounding() : 0) + speed(s) * (2 * resolution + slack_);
 }
 
 double RodFlight::noise_of_rate(double s) const {
   double acceleration = 0;
-  for (std::size_t i = 0; i < 2; ++i) acceleration += half_lengths_[i] * omega_[i] * omega_[i];
-  const double bend = speed_ * speed_ / contact_ + acceleration, off = limit(s);
-  return speed_ * (0x1p-44 + 16 * off / contact_) + std::sqrt(2 * bend * off);
+  for (std::size_t i = 0; i < 2; ++i)
+    acceleration += half_lengths_[i] * omega_[i] * (omega_[i] * grown(s) + 2 * growth_);
+  const double bend = speed(s) * speed(s) / contact(s) + acceleration, off = limit(s);
+  return speed(s) * (0x1p-44 + 16 * off / contact(s)) + std::sqrt(2 * bend * off);
 }
 
 namespace {
@@ -188,12 +201,8 @@ struct Bounds {
   Arms arms;
 };
 
-/// The distance from below, if it differs by at most `change` (of the rates) from the middle:
-/// |m|^2 - D |m| grows with |m| from D / 2 on, so that the least |m| decides.
-struct Sloped {
-  double square = 0;
-  std::array<double, 2> along{};
-};
+/// By how much m . u may differ from that in the middle.
+using Changes = std::array<double, 2>;
 
 /// What an axis takes off m . r: (L / 2) |c| + a c for c = m . u, which is convex in c.
 double taken_off(const std::pair<double, double>& c, double half, double arm) {
@@ -203,21 +212,30 @@ double taken_off(const std::pair<double, double>& c, double half, double arm) {
 
 template <class Real>
 double taken_off(const Separation<Ball<Real>>& middle, const Arms& arms,
-                 const std::array<double, 2>& half, const Sloped& change) {
+                 const std::array<double, 2>& half, const Changes& change) {
   double sum = 0;
   for (std::size_t i = 0; i < 2; ++i) {
     if (!middle.along[i]) continue;
-    const auto c = range(*middle.along[i], change.along[i]);
+    const auto c = range(*middle.along[i], change[i]);
     sum += taken_off(c, half[i], i == 0 ? arms.first : -arms.second);
   }
   return sum;
 }
 
-/// Whether d > contact follows from |m|^2 >= square.
-bool is_beyond(double square, double taken, double contact) {
-  if (!(square > 0)) return false;
-  const double m = std::sqrt(square) * downward;
-  return 2 * m > contact && (m - contact) * m > taken;
+/// Of |m|^2, or what stands for it, beyond the square of the distance that is enough.
+template <class Number>
+Number excess_of(const Separation<Number>& separation, const Rods<Number>& rods, double contact,
+                 double limit) {
+  const Number enough = Number(contact) * rods.grown - Number(2 * limit);
+  return separation.square - enough * enough;
+}
+
+/// Whether d > D follows from |m|^2 - D^2 >= excess, for no D above `most`: d |m| >= |m|^2 - taken,
+/// and |m|^2 - D |m| is the excess times |m| / (|m| + D), which falls with D.
+bool is_beyond(double excess, double taken, double most) {
+  if (!(excess > 0)) return false;
+  const double m = std::sqrt(most * most + excess) * downward;
+  return excess * (m / (m + most)) * downward > taken;
 }
 
 template <class Real>
@@ -225,13 +243,24 @@ Rods<Ball<Real>> rods_of(const auto& motion, const Ball<Real>& s) {
   return {motion.r + motion.v * s, motion.flights[0].at(motion.delay[0] + s).u,
           motion.flights[1].at(motion.delay[1] + s).u};
 }
+/// The same with arms that are given as of another time.
+template <class Real>
+Rods<Ball<Real>> rods_of(const auto& motion, const Ball<Real>& s, const Ball<Real>& arms_at) {
+  Rods<Ball<Real>> out = rods_of<Real>(motion, s);
+  out.grown = motion.grown(s) / motion.grown(arms_at);
+  return out;
+}
 
 template <class Real>
-Rods<Moving<Real>> moving_rods_of(const auto& motion, const Ball<Real>& s) {
+Rods<Moving<Real>> moving_rods_of(const auto& motion, const Ball<Real>& s,
+                                  const Ball<Real>& arms_at) {
   const auto first = motion.flights[0].at(motion.delay[0] + s);
   const auto second = motion.flights[1].at(motion.delay[1] + s);
-  return {dual<Real>(motion.r + motion.v * s, motion.v), dual<Real>(first.u, first.du),
-          dual<Real>(second.u, second.du)};
+  const Ball<Real> then = motion.grown(arms_at);
+  return {dual<Real>(motion.r + motion.v * s, motion.v),
+          dual<Real>(first.u, first.du),
+          dual<Real>(second.u, second.du),
+          {motion.grown(s) / then, motion.growth / then}};
 }
 
 template <class Real>
@@ -282,36 +311,39 @@ template <class Real>
 RodFlight::Settled RodFlight::settle(const Motion<Real>& motion, const Stretch& stretch,
                                      double limit) const {
   const double half = 0.5 * (stretch.end - stretch.begin), middle = stretch.begin + half;
-  const double enough = contact_ - 2 * limit;
+  const double contact = this->contact(middle), enough = contact - 2 * limit;
+  const std::array<double, 2> half_lengths = this->half_lengths(middle);
   const auto rods = rods_of<Real>(motion, Ball<Real>(middle));
-  const Bounds<Real> bounds = distance_of(rods, half_lengths_);
-  if (bounds.most < contact_ - limit) return {Verdict::overlapping, true};
-  if (bounds.least - speed_ * half * upward > enough) return {Verdict::free, true};
+  const Bounds<Real> bounds = distance_of(rods, half_lengths);
+  if (bounds.most < contact - limit) return {Verdict::overlapping, true};
+  if (bounds.least - speed(stretch.end) * half * upward > enough) return {Verdict::free, true};
   // Where the gap is larger than what is lost, shorter intervals help as well as more digits.
   const double lost = bounds.most - bounds.least;
   const bool exact = lost <= 0.25 * limit || bounds.least - enough > 4 * lost;
-  const auto during = moving_rods_of<Real>(motion, {Real(middle), half * upward});
+  const auto during =
+      moving_rods_of<Real>(motion, {Real(middle), half * upward}, Ball<Real>(middle));
+  const double grown = upper(during.grown.value), most_enough = grown * contact - 2 * limit;
   for (const Arms& arms : directions(bounds.arms)) {
     if (arms.kind == Nearest::sides && are_parallel(during)) continue;
     const Separation<Ball<Real>> at = separation_of(rods, arms);
     const Separation<Moving<Real>> change = separation_of(during, arms);
-    Sloped most;
+    Changes most{};
     for (std::size_t i = 0; i < 2; ++i) {
-      if (change.along[i]) most.along[i] = upper(change.along[i]->rate) * half * upward;
+      if (change.along[i]) most[i] = upper(change.along[i]->rate) * half * upward;
     }
-    const Ball<Real>& slope = change.square.rate;
-    const double taken = taken_off(at, arms, half_lengths_, most);
-    const double square = range(at.square, upper(slope) * half * upward).first;
-    if (is_beyond(square, taken, enough)) return {Verdict::free, true};
-    // |m|^2 is least at one of the ends.
+    const auto slope = excess_of(change, during, contact, limit).rate;
+    const double taken = taken_off(at, arms, half_lengths, most) * grown;
+    const double excess =
+        range(excess_of(at, rods, contact, limit), upper(slope) * half * upward).first;
+    if (is_beyond(excess, taken, most_enough)) return {Verdict::free, true};
+    // It is least at one of the ends.
     const auto [falls, rises] = range(slope, 0);
     if (falls > 0 || rises < 0) {
       const double end = falls > 0 ? stretch.begin : stretch.end;
-      const auto there = rods_of<Real>(motion, Ball<Real>(end));
+      const auto there = rods_of<Real>(motion, Ball<Real>(end), Ball<Real>(middle));
       if (arms.kind == Nearest::sides && are_parallel(there)) continue;
-      if (is_beyond(range(separation_of(there, arms).square, 0).first, taken, enough)) {
-        return {Verdict::free, true};
-      }
+      const auto at_end = excess_of(separation_of(there, arms), there, contact, limit);
+      if (is_beyond(range(at_end, 0).first, taken, most_enough)) return {Verdict::free, true};
     }
     if (arms.kind == Nearest::points) break;
   }
@@ -321,9 +353,9 @@ RodFlight::Settled RodFlight::settle(const Motion<Real>& motion, const Stretch& 
 RodFlight::Distance RodFlight::at(double s) {
   const auto bounds_of = [&](const auto& motion, auto real) {
     using Real = decltype(real);
-    return distance_of(rods_of<Real>(motion, Ball<Real>(s)), half_lengths_);
+    return distance_of(rods_of<Real>(motion, Ball<Real>(s)), half_lengths(s));
   };
-  const auto rods = moving_rods_of<double>(motion_, Ball<double>(s));
+  const auto rods = moving_rods_of<double>(motion_, Ball<double>(s), Ball<double>(s));
   Bounds<double> bounds = bounds_of(motion_, double());
   if (bounds.most - bounds.least > 0.25 * limit(s)) {
     const auto precise = bounds_of(in_quad(), Quad());
@@ -332,20 +364,21 @@ RodFlight::Distance RodFlight::at(double s) {
   const auto p = between(rods, bounds.arms);
   double along = 0;
   for (int axis = 0; axis < 3; ++axis) along += p[axis].value.middle * p[axis].rate.middle;
-  return {bounds.least, bounds.most, along / bounds.most};
+  return {bounds.least, bounds.most, along / bounds.most - contact_ * growth_};
 }
 
 double RodFlight::overlap_at(double s) const {
   const auto rods = rods_of<Quad>(motion<Quad>(), Ball<Quad>(s));
-  return std::max(0.0, contact_ - distance_of(rods, half_lengths_).least) / contact_;
+  return std::max(0.0, contact(s) - distance_of(rods, half_lengths(s)).least) / contact(s);
 }
 
 // About when the rods overlap by more than the limit, which they do at `to` and not at `from`.
 double RodFlight::crossing(double from, double to, double limit) const {
   for (int i = 0; i < 60; ++i) {
     const double middle = from + 0.5 * (to - from);
-    const auto bounds = distance_of(rods_of<double>(motion_, Ball<double>(middle)), half_lengths_);
-    (bounds.most < contact_ - limit ? to : from) = middle;
+    const auto bounds =
+        distance_of(rods_of<double>(motion_, Ball<double>(middle)), half_lengths(middle));
+    (bounds.most < contact(middle) - limit ? to : from) = middle;
   }
   return to;
 }
@@ -377,7 +410,7 @@ double RodFlight::end_of_overlap(double from, double to) {
   const double limit = this->limit(to);
   for (int i = 60; i > 0; --i) {
     const double s = from + std::ldexp(to - from, -i);
-    if (at(s).least > contact_ - limit) return s;
+    if (at(s).least > contact(s) - limit) return s;
   }
   return to;
 }

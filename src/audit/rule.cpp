@@ -96,18 +96,19 @@ struct Lever {
 
 /// Of nearly parallel rods, rounding decides which points are nearest; those of the report are,
 /// where the distance grows from them in both directions, or on from the ends. All else follows
-/// from them.
+/// from them. Their sizes may be off by this share.
 Contact contact_of_rods(const Partner& a, const Partner& b, const Vector3& r,
-                        const std::array<AuditedBody, 2>& bodies, const Collision& collision,
-                        double geometry, Excess& excess) {
+                        const std::array<AuditedBody, 2>& bodies, double off_size,
+                        const Collision& collision, double geometry, Excess& excess) {
   const std::array arms = {collision.arm_first, collision.arm_second};
   const Vector3 p = r + a.u * Quad(arms[0]) - b.u * Quad(arms[1]);
   const std::array rates = {magnitude(dot(p, a.u)), magnitude(dot(p, b.u))};
   const std::array outwards = {dot(p, a.u) * arms[0], -dot(p, b.u) * arms[1]};
   for (std::size_t i = 0; i < 2; ++i) {
     const double half = 0.5 * bodies[i].length, arm = std::abs(arms[i]);
-    excess.add(std::max(0.0, arm - half), half * 0x1p-51);
-    const bool at_end = arm >= half * (1 - 0x1p-51);
+    const double off = 0x1p-51 + off_size;
+    excess.add(std::max(0.0, arm - half), half * off);
+    const bool at_end = arm >= half * (1 - off);
     excess.add(half == 0 || (at_end && outwards[i] < 0) ? 0.0 : rates[i], geometry);
   }
   const double distance = 0.5 * (bodies[0].diameter + bodies[1].diameter);
@@ -141,16 +142,18 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
       slid = static_cast<std::uint32_t>(static_cast<std::int32_t>(boxes)) * slide.boxes;
     }
   }
-  const std::array<AuditedBody, 2> bodies = {first.body, second.body};
+  const double scale = space.scale_at(now);
+  const double off_size = space.growth ? space.growth->off(scale) : 0;
+  const std::array<AuditedBody, 2> bodies = {first.body.grown(scale), second.body.grown(scale)};
   const bool wide = first.body.diameter + second.body.diameter > 0;
   constexpr double unit = 0x1p-53;
   const double flexible = 8 * unit * (2 + a.flown + b.flown + (a.turned + b.turned));
   const double off_by_renewal = renewed ? space.rounding() : 0;
   Excess excess;
-  const Contact contact =
-      wide ? contact_of_rods(a, b, r, bodies, collision, flexible + off_by_renewal, excess)
-           : contact_of_needles(a, b, r, flexible, off_by_renewal,
-                                std::min(bodies[0].length, bodies[1].length));
+  const Contact contact = wide ? contact_of_rods(a, b, r, bodies, off_size, collision,
+                                                 flexible + off_by_renewal, excess)
+                               : contact_of_needles(a, b, r, flexible, off_by_renewal,
+                                                    std::min(bodies[0].length, bodies[1].length));
   const auto& [s12, s21, n, geometry, share] = contact;
   const Quad sine = norm(cross(a.u, b.u));
   const bool spheres = wide && !bodies[0].has_axis() && !bodies[1].has_axis();
@@ -163,9 +166,16 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
   const auto& [first_lever, second_lever] = levers;
   const Vector3 velocity = a.v - b.v - past + cross(a.w, first_lever.along) * first_lever.arm -
                            cross(b.w, second_lever.along) * second_lever.arm;
+  // How fast growth brings the surfaces together: by what the distance of the centres along the
+  // normal, at contact, grows.
+  Quad closing = 0;
+  if (space.growth) {
+    const Quad distance = (Quad(bodies[0].diameter) + bodies[1].diameter) / 2;
+    closing = space.growth->relative_rate_at(now) * (distance - dot(a.u * s12 - b.u * s21, n));
+  }
   // Of rods, the engine takes a velocity that rounding makes part them as 0.
-  const Quad along_normal = dot(velocity, n);
-  const Quad vn = wide && along_normal > 0 ? Quad(0) : along_normal;
+  const Quad approach = dot(velocity, n) - closing;
+  const Quad vn = (wide && approach > 0 ? Quad(0) : approach) + closing;
   const Quad epsilon = collision.contact_time_rule ? 1 : rule.epsilon;
   // The roughness of spheres stays within the contact time.
   const Quad beta = collision.contact_time_rule && !spheres ? -1 : rule.beta;
@@ -192,8 +202,8 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
     return mass[0] * p[0] + mass[1] * p[1] + mass[2] * p[2];
   };
   const Vector3 impulse =
-      smooth ? n * Quad(-(1 + epsilon) * vn / dot(n, mass_times(n)))
-             : solve(mass, n * Quad(-(1 + epsilon) * vn) - tangential * Quad(1 + beta));
+      smooth ? n * Quad((1 + epsilon) * (closing - vn) / dot(n, mass_times(n)))
+             : solve(mass, n * Quad((1 + epsilon) * (closing - vn)) - tangential * Quad(1 + beta));
   const Vector3 turn_first =
       cross(first_lever.along, impulse) * Quad(inverse_inertia[0] * first_lever.arm);
   const Vector3 turn_second =
@@ -203,9 +213,12 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
     return body.has_axis() ? body.length : body.diameter;
   };
   const double speed = a.fastest + b.fastest +
-                       magnitude(Quad(norm(a.w) * span(bodies[0]) + norm(b.w) * span(bodies[1])));
+                       magnitude(Quad(norm(a.w) * span(bodies[0]) + norm(b.w) * span(bodies[1]))) +
+                       magnitude(closing);
   const bool hardly_parts = magnitude(Quad(epsilon * vn)) < rule.parting * speed;
-  const double share_after = share + (hardly_parts ? 4 * rule.parting : 0);
+  const double grown = space.growth ? space.growth->off_rate(scale) * magnitude(closing) : 0;
+  const double off = share * speed + grown,
+               off_after = off + (hardly_parts ? 4 * rule.parting : 0) * speed;
   // Twice the ratio of the largest and the smallest M, which has its tips.
   const auto at_tip = [&](int i) {
     const double shape = bodies[i].has_axis() ? bodies[i].k / 2
@@ -222,14 +235,13 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
   excess.add(magnitude(Quad(s12 - collision.arm_first)), geometry);
   excess.add(magnitude(Quad(s21 - collision.arm_second)), geometry);
   excess.add(magnitude(Quad(sine - collision.sin_angle)), geometry);
-  excess.add(magnitude(Quad(vn - collision.normal_velocity)), stiffness * share * speed);
-  excess.add(difference(impulse, collision.impulse), push * stiffness * share * speed);
+  excess.add(magnitude(Quad(vn - collision.normal_velocity)), stiffness * off);
+  excess.add(difference(impulse, collision.impulse), push * stiffness * off);
   // The energy change is the impulse times the mean of the relative velocities before and after
   // it, which differ by M dp.
   const Vector3 kick = mass_times(impulse);
   const Quad energy = dot(impulse, velocity + kick * Quad(0.5));
-  excess.add(magnitude(Quad(energy - collision.energy_change)),
-             push * stiffness * share * speed * speed);
+  excess.add(magnitude(Quad(energy - collision.energy_change)), push * stiffness * off * speed);
   const std::array<Vector3, 2> v_after = {a.v + impulse * inverse_mass[0],
                                           b.v - impulse * inverse_mass[1]};
   const std::array<Vector3, 2> w_after = {a.w + turn_first, b.w - turn_second};
@@ -249,14 +261,13 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
     excess.add(difference(before.u, after.orientation), 8 * unit * (2 + before.turned));
     // The velocity itself is rounded, too, however heavy the needle is.
     const double kicked = std::max(1.0, push * magnitude(inverse_mass[i]));
-    excess.add(difference(v_after[i] - wrapped, after.velocity),
-               kicked * stiffness * share_after * speed);
+    excess.add(difference(v_after[i] - wrapped, after.velocity), kicked * stiffness * off_after);
     const AuditedBody& body = bodies[i];
     const double turning = body.has_axis() ? body.k / body.length
                            : body.q > 0    ? 2 / (body.q * body.diameter)
                                            : 0;
     excess.add(difference(w_after[i], after.angular_velocity),
-               (2 / body.extent() + turning) * kicked * stiffness * share_after * speed);
+               (2 / body.extent() + turning) * kicked * stiffness * off_after);
   }
   return excess.most();
 }

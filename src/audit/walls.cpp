@@ -71,16 +71,16 @@ std::vector<Wall> walls_of(const std::vector<Scene::Wall>& walls, const std::arr
   return out;
 }
 
-TipFlight::TipFlight(const Needle& needle, const Vector<double>& gravity, const Wall& wall, int tip)
+TipFlight::TipFlight(const Needle& needle, const Space& space, const Wall& wall, int tip)
     : axis_(wall.axis),
+      growth_(space.growth ? static_cast<double>(space.growth->relative_rate_at(needle.record.time))
+                           : 0),
       sign_(wall.sign()),
-      // The caps of rods touch with half their diameter.
       centre_(static_cast<double>(Quad(needle.record.r[wall.axis]) -
-                                  place_at(wall, needle.record.time)) -
-              sign_ * 0.5 * needle.body.diameter),
+                                  place_at(wall, needle.record.time))),
       speed_(needle.record.v[wall.axis]),
-      half_fall_(gravity[wall.axis] / 2),
-      arm_(tip * needle.body.length / 2),
+      half_fall_(space.gravity[wall.axis] / 2),
+      arm_(tip * needle.body.length / 2 * space.scale_at(needle.record.time)),
       along_(needle.flight.u[wall.axis].middle),
       across_(needle.flight.side[wall.axis].middle),
       omega_(needle.flight.omega.middle),
@@ -89,16 +89,21 @@ TipFlight::TipFlight(const Needle& needle, const Vector<double>& gravity, const 
       angle_(wall.amplitude > 0 ? phase_at(wall, needle.record.time) : 0),
       bend_(2 * std::abs(half_fall_) +
             std::abs(arm_) * omega_ * omega_ * std::hypot(along_, across_) +
-            amplitude_ * turn_ * turn_) {
+            amplitude_ * turn_ * turn_),
+      turned_(std::abs(arm_) * omega_ * std::hypot(along_, across_)) {
+  // The caps of rods touch with half their diameter.
+  const double radius = 0.5 * needle.body.diameter * space.scale_at(needle.record.time);
+  centre_ -= sign_ * radius;
+  speed_ -= sign_ * radius * growth_;
   if (!is_moving(wall, needle.record.time)) return;
   drift_ = wall.velocity;
   halt_ = wall.stops ? static_cast<double>(halt_of(wall) - age(needle.record.time))
                      : std::numeric_limits<double>::infinity();
 }
 
-TipFlight::TipFlight(const Guide& guide, double duration, const Vector<double>& gravity,
-                     const Wall& wall, int tip)
-    : TipFlight(guide.needle, gravity, wall, tip) {
+TipFlight::TipFlight(const Guide& guide, double duration, const Space& space, const Wall& wall,
+                     int tip)
+    : TipFlight(guide.needle, space, wall, tip) {
   if (!guide.joint) return;
   joint_ = guide.joint;
   index_ = guide.index;
@@ -116,8 +121,10 @@ TipFlight::Point TipFlight::tip_at(double s) const {
             static_cast<double>(stance.v[axis_] + arm_ * stance.du[axis_]) + 2 * fall};
   }
   const double cosine = std::cos(omega_ * s), sine = std::sin(omega_ * s);
-  return {centre_ + (speed_ + fall) * s + arm_ * (along_ * cosine + across_ * sine),
-          speed_ + 2 * fall + arm_ * omega_ * (across_ * cosine - along_ * sine)};
+  const double along = along_ * cosine + across_ * sine, grown = 1 + growth_ * s;
+  return {centre_ + (speed_ + fall) * s + arm_ * grown * along,
+          speed_ + 2 * fall +
+              arm_ * (grown * omega_ * (across_ * cosine - along_ * sine) + growth_ * along)};
 }
 
 double TipFlight::height(double s) const {
@@ -145,7 +152,7 @@ std::optional<double> TipFlight::crossing(double from, double to, double toleran
     const double half = 0.5 * (stretch.end - stretch.begin), middle = stretch.begin + half;
     const double h = height(middle);
     if (h < -tolerance) return middle;
-    if (h - (std::abs(rate(middle)) + 0.5 * bend_ * half) * half >= -tolerance) continue;
+    if (h - (std::abs(rate(middle)) + 0.5 * bend(to) * half) * half >= -tolerance) continue;
     if (half <= 0x1p-51 * std::max(std::abs(stretch.begin), std::abs(stretch.end))) continue;
     stretches.push_back({middle, stretch.end});
     stretches.push_back({stretch.begin, middle});
@@ -161,20 +168,23 @@ double excess_over_flight(const Needle& needle, const Vector<double>& gravity, c
   return excess.most();
 }
 
-double excess_over_wall_rule(const Needle& needle, const Vector<double>& gravity, const Wall& wall,
-                             const Instant& now, const Collision& hit, const Space& space) {
+double excess_over_wall_rule(const Needle& needle, const Wall& wall, const Instant& now,
+                             const Collision& hit, const Space& space) {
+  const Vector<double>& gravity = space.gravity;
   const There there(needle, gravity, now);
+  const double scale = space.scale_at(now), off_scale = space.growth ? space.growth->off(scale) : 0;
   const AuditedBody& body = needle.body;
   const Quad n = wall.sign(), arm = hit.arm_first;
   Excess excess;
   add_place(excess, there, vector(hit.after[0].position), vector(hit.after[0].orientation), space);
   // Of a tip, and of no other needle.
-  const double half = body.length / 2;
-  excess.add(Quad(std::abs(hit.arm_first) - half), 4 * unit * half);
+  const double half = body.length / 2 * scale;
+  excess.add(Quad(std::abs(hit.arm_first) - half), (4 * unit + off_scale) * half);
   const bool alone = hit.arm_second == 0 && hit.shift == std::array<std::int32_t, 3>{};
   excess.add(alone ? 0.0 : NAN, 1);
 
-  // V_n = (v + s w x u) . n relative to the surface, and 1/m + (L^2 / 4 I)(1 - (u . n)^2).
+  // V_n = (v + s w x u) . n relative to the surface, and 1/m + (L^2 / 4 I)(1 - (u . n)^2). Growth
+  // brings the surfaces together as the distance of the centre from the wall grows.
   const double phase = phase_at(wall, now);
   const Quad surface = wall.amplitude * two_pi * wall.frequency * std::cos(phase) +
                        (is_moving(wall, now) ? wall.velocity : 0);
@@ -182,6 +192,11 @@ double excess_over_wall_rule(const Needle& needle, const Vector<double>& gravity
   const Vector<Quad> turn = cross(there.w, there.u);
   const Quad tip = n * (there.v[wall.axis] + turn[wall.axis] * arm);
   const Quad vn = tip - n * surface;
+  Quad closing = 0;
+  if (space.growth) {
+    const Quad distance = body.diameter / 2 * scale - n * lift * arm;
+    closing = space.growth->relative_rate_at(now) * distance;
+  }
   const Quad inverse_mass = body.inverse_mass<Quad>();
   const Quad inverse_inertia = body.inverse_inertia<Quad>();
   const Quad give = inverse_mass + inverse_inertia * arm * arm * (1 - lift * lift);
@@ -189,18 +204,20 @@ double excess_over_wall_rule(const Needle& needle, const Vector<double>& gravity
   // What rounding explains: directors are off by half units, which grow with the angle turned; the
   // phase of the wall likewise.
   const double speed = magnitude(norm(there.v)) + magnitude(norm(there.w)) * body.extent() +
-                       magnitude(surface) +
+                       magnitude(surface) + magnitude(closing) +
                        norm(gravity) * magnitude(elapsed<Quad>(needle.record.time, now).middle);
   const double shaken = wall.amplitude * two_pi * wall.frequency * 16 * unit *
                         (1 + std::abs(phase)) * (1 + two_pi * wall.frequency);
-  const double off = 32 * unit * (2 + there.turned + there.flown / body.extent()) * speed + shaken;
+  const double grown = space.growth ? space.growth->off_rate(scale) * magnitude(closing) : 0;
+  const double off =
+      32 * unit * (2 + there.turned + there.flown / body.extent()) * speed + shaken + grown;
   const double push = 2 * body.mass;  // of an impulse that changes the speed of the tip by 1
-  const double stiffness = 1 + body.k;
+  const double stiffness = 1 + body.k * scale * scale;
   excess.add(vn - Quad(hit.normal_velocity), off);
   if (wall.draws) return excess.most();
 
   const Quad epsilon = hit.contact_time_rule ? 1 : wall.epsilon;
-  const Quad impulse = -(1 + epsilon) * vn / give;
+  const Quad impulse = (1 + epsilon) * (closing - vn) / give;
   const Quad energy = impulse * (tip + impulse * give / 2);
   excess.add(energy - Quad(hit.energy_change), push * stiffness * off * (speed + off));
   for (int axis = 0; axis < 3; ++axis) {

@@ -36,10 +36,9 @@ std::vector<Wall> walls_of(const std::vector<Scene::Wall>& walls, const std::arr
 class TipFlight {
  public:
   /// `tip` is 1 for the tip at which the director points, else -1.
-  TipFlight(const Needle& needle, const Vector<double>& gravity, const Wall& wall, int tip);
+  TipFlight(const Needle& needle, const Space& space, const Wall& wall, int tip);
   /// The same of a needle that is guided since its record, for this time.
-  TipFlight(const Guide& guide, double duration, const Vector<double>& gravity, const Wall& wall,
-            int tip);
+  TipFlight(const Guide& guide, double duration, const Space& space, const Wall& wall, int tip);
 
   double height(double s) const;  ///< [L]
   double rate(double s) const;    ///< its derivative
@@ -52,20 +51,25 @@ class TipFlight {
   };
   Point tip_at(double s) const;
   double phase(double s) const { return angle_ + turn_ * s; }
+  /// Bound on the second derivative up to s.
+  double bend(double s) const { return bend_ + growth_ * (2 * turned_ + turned_ * omega_ * s); }
 
   const JointMotion* joint_ = nullptr;  ///< null in free flight
   int index_ = 0, axis_;
-  double sign_, centre_, speed_, half_fall_, arm_, along_, across_, omega_;
+  /// The arm is 1 + growth s times as long at s; the centre counts from where a needle without arms
+  /// would touch.
+  double growth_, sign_, centre_, speed_, half_fall_, arm_, along_, across_, omega_;
   double amplitude_, turn_, angle_;
   double drift_ = 0, halt_ = 0;  ///< velocity of the surface, and when it comes to rest
-  double bend_;                  ///< bound on the second derivative
+  double bend_;                  ///< bound on the second derivative, without growth
+  double turned_ = 0;            ///< bound on the speed of the tip by rotation at s = 0
 };
 
 /// Largest difference of a reported hit and of the record after it from the rule, in units of what
 /// rounding may explain; a value above 1 is an error. `needle` is that before, `now` the time of
 /// the hit.
-double excess_over_wall_rule(const Needle& needle, const Vector<double>& gravity, const Wall& wall,
-                             const Instant& now, const Collision& hit, const Space& space);
+double excess_over_wall_rule(const Needle& needle, const Wall& wall, const Instant& now,
+                             const Collision& hit, const Space& space);
 
 /// The same for an event that changes velocities in a way that is not checked: place and director
 /// of the needle go on.

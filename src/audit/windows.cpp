@@ -7,22 +7,6 @@
 #include <utility>
 
 namespace needlework::audit {
-namespace {
-
-// From here on times are not followed: the run is older than any.
-constexpr double most_epochs = 0x1p62;
-
-Instant later(const Instant& time, double epochs) {
-  const double offset = time.offset + (epochs - std::floor(epochs));
-  const double carry = std::floor(offset);
-  const double whole = std::floor(epochs) + carry;
-  if (!(whole + static_cast<double>(time.epoch) < most_epochs)) {
-    return {std::numeric_limits<std::int64_t>::max(), 0};
-  }
-  return {time.epoch + static_cast<std::int64_t>(whole), offset - carry};
-}
-
-}  // namespace
 
 std::vector<Temperatures> temperatures_of(std::span<const Needle> needles,
                                           std::span<const AuditedBody> bodies) {

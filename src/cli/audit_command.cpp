@@ -117,6 +117,7 @@ nlohmann::ordered_json findings_json(const audit::Findings& findings,
   json["at_walls"] = findings.at_walls;
   json["draws"] = findings.draws;
   json["kicks"] = findings.kicks;
+  json["coolings"] = findings.coolings;
   json["contacts"] = findings.contacts;
   json["escalated"] = findings.escalated;
   json["share"] = arguments.share;
@@ -160,6 +161,10 @@ std::string text_of(const audit::Findings& findings, const AuditArguments& argum
   }
   if (findings.kicks > 0) {
     text += fmt::format("{} kicks of all needles checked\n", findings.kicks);
+  }
+  if (findings.coolings > 0) {
+    text +=
+        fmt::format("{} times checked at which velocities were scaled back\n", findings.coolings);
   }
   if (findings.draws > 0) {
     text += fmt::format(
@@ -235,7 +240,7 @@ int run(const AuditArguments& arguments) {
   }
   audit.check_start(scene, loaded.initial ? &*loaded.initial : nullptr);
   simulation.on_happening([&](const Happening& happening) { audit.add(happening); });
-  simulation.on_kick([&] { audit.add_kick(simulation.copy()); });
+  simulation.on_kick([&] { audit.add_kick(simulation.copy(), simulation.time()); });
   SignalGuard guard;
   guard.interrupt(simulation);
   const Outcome outcome = follow(simulation, audit, scene, arguments.quiet);

@@ -39,6 +39,7 @@ Json checkpoint_json(const audit::Checkpoint& checkpoint) {
           {"hits", findings.hits},
           {"draws", findings.draws},
           {"kicks", findings.kicks},
+          {"coolings", findings.coolings},
           {"entered", findings.entered},
           {"ended", findings.ended},
           {"at_walls", findings.at_walls},
@@ -56,14 +57,15 @@ audit::Checkpoint checkpoint_of(const Json& from) {
   audit::Checkpoint out;
   out.fingerprint = std::stoull(from.at("fingerprint").get<std::string>());
   audit::Findings& findings = out.findings;
-  for (const char* key : {"collisions", "hits", "draws", "kicks", "entered", "ended", "at_walls",
-                          "contacts", "checked", "escalated", "undecided"}) {
+  for (const char* key : {"collisions", "hits", "draws", "kicks", "coolings", "entered", "ended",
+                          "at_walls", "contacts", "checked", "escalated", "undecided"}) {
     if (!from.at(key).is_number_unsigned()) throw std::out_of_range(key);
   }
   from.at("collisions").get_to(findings.collisions);
   from.at("hits").get_to(findings.hits);
   from.at("draws").get_to(findings.draws);
   from.at("kicks").get_to(findings.kicks);
+  from.at("coolings").get_to(findings.coolings);
   from.at("entered").get_to(findings.entered);
   from.at("ended").get_to(findings.ended);
   from.at("at_walls").get_to(findings.at_walls);

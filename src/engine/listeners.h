@@ -21,7 +21,7 @@ struct Listeners {
   std::function<void(const Collision&)> collision;
   std::function<void(std::span<const double>)> times;  ///< of collisions
   std::function<void(const Happening&)> happening;
-  std::function<void()> kick;  ///< after one of all needles
+  std::function<void()> kick;  ///< after one of all needles, or when they have been cooled
 
   /// Whether anybody wants to know of collisions, or of what else happens.
   bool any() const { return collision || times || happening; }

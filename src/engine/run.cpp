@@ -555,8 +555,8 @@ std::optional<Collisionless> Run::collisionless() const {
   // Events and kicks may change directions of flight.
   if (!sources.empty() || kicks) return std::nullopt;
   if (gas.size() > 1 && !gas.composition.any_meet()) return Collisionless::passing;
-  // Images fly past each other.
-  if (gas.shear && gas.size() > 1) return std::nullopt;
+  // Images fly past each other, and bodies grow into each other.
+  if ((gas.shear || gas.growth) && gas.size() > 1) return std::nullopt;
   const auto state_of = [&](std::size_t i) {
     const kernels::Flight& flight = gas.records[i].flight;
     // Spheres do not meet by turning.

@@ -270,7 +270,7 @@ struct Simulation::Implementation {
     if (!run.replaces_velocities()) return;
     loop->keep_in_order();
     replace([&] { return run.kicks ? run.kick() : run.cool(); });
-    if (run.kicks && run.listeners.kick) run.listeners.kick();
+    if (run.listeners.kick) run.listeners.kick();
   }
 
   Stop advance(StopConditions limits) {

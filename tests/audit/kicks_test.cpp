@@ -124,7 +124,7 @@ TEST(AuditOfKicks, SeesWhatWasMissedBeforeIt) {
   audit::Audit audit(simulation.copy(), audit_setup(scene, simulation.epoch_length()));
   simulation.advance(until_time(0.5));
   ASSERT_GT(simulation.collisions(), 10u);
-  audit.add_kick(simulation.copy());
+  audit.add_kick(simulation.copy(), simulation.time());
   EXPECT_GE(audit.findings().count(Kind::missed), 5u);
   EXPECT_GE(audit.findings().count(Kind::wrong_rule), 10u);
 }

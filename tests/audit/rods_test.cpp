@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "src/audit/audit.h"
-#include "tests/support/audit_setup.h"
 #include "tests/support/audited.h"
 #include "tests/support/by_build.h"
+#include "tests/support/recorded_run.h"
 #include "tests/support/runs.h"
 #include "tests/support/scenes.h"
 
@@ -26,32 +26,6 @@ using audit::Kind;
 
 constexpr int fewer = test::by_build(1, 10);
 
-/// A run of the engine, recorded with all that the audit needs.
-struct RodRun {
-  State initial;
-  std::vector<Happening> happenings;
-  audit::Setup setup;
-  Scene scene;
-  double end = 0;
-
-  RodRun(const Scene& given, double per_rod) : scene(given) {
-    Simulation run(scene);
-    initial = run.copy();
-    setup = audit_setup(scene, run.epoch_length());
-    run.on_happening([&](const Happening& happening) { happenings.push_back(happening); });
-    run.advance(until_collisions(per_rod / fewer));
-    end = run.time();
-  }
-
-  Findings audited() const {
-    audit::Audit audit(initial, setup);
-    audit.check_start(scene, nullptr);
-    for (const Happening& happening : happenings) audit.add(happening);
-    audit.finish(end);
-    return audit.findings();
-  }
-};
-
 Scene rough_spheres(double beta) {
   Scene scene = test::inelastic(rods_of(100, 0, 0.3), 0.8);
   scene.species[0].given_inertia = 0.15;
@@ -62,7 +36,7 @@ Scene rough_spheres(double beta) {
 // Of spheres that are less rough, of another moment of inertia, or smooth within the contact time.
 TEST(AuditOfRods, ReportsAnotherRoughness) {
   const auto wrong_rules = [](const Composition& composition) {
-    RodRun run(rough_spheres(0.3), 5);
+    RecordedRun run(rough_spheres(0.3), until_collisions(5.0 / fewer));
     run.setup.composition = composition;
     const Findings findings = run.audited();
     EXPECT_GT(findings.collisions, 50u / fewer);
@@ -95,7 +69,7 @@ TEST(AuditOfRods, FindsNothingWrongWithTheEngine) {
   walled.forces.gravity = {0, 0, -1};
   std::uint64_t escalated = 0;
   for (const Scene& scene : scenes) {
-    const RodRun run(scene, 5);
+    const RecordedRun run(scene, until_collisions(5.0 / fewer));
     const Findings findings = run.audited();
     EXPECT_TRUE(findings.clean()) << name_of(scene) << ": " << listed(findings);
     EXPECT_EQ(findings.undecided, 0u) << name_of(scene);
@@ -114,11 +88,21 @@ TEST(AuditOfRods, FindsNothingWrongWithTheEngine) {
   EXPECT_GT(escalated, 0u);
 }
 
-class FalseReportOfRods : public testing::TestWithParam<double> {
+/// Rods of this length that may grow.
+struct Rods {
+  double length = 0, growth = 0;
+
+  Scene scene() const {
+    Scene out = rods_of(length < 5 ? 50 : 130, length, 0.25);
+    if (growth > 0) out.driving.growth = Scene::Growth{.rate = growth, .cool_every = 0.25};
+    return out;
+  }
+};
+
+class FalseReportOfRods : public testing::TestWithParam<Rods> {
  protected:
   FalseReportOfRods()
-      : run(rods_of(GetParam() > 0 ? 130 : 50, GetParam(), 0.25), 10),
-        n(run.happenings.size() / 2) {}
+      : run(GetParam().scene(), until_collisions(10.0 / fewer)), n(run.happenings.size() / 2) {}
   Collision& victim() { return run.happenings[n].event; }
   std::uint64_t count(Kind kind) const { return run.audited().count(kind); }
   template <class Alter>
@@ -130,12 +114,12 @@ class FalseReportOfRods : public testing::TestWithParam<double> {
     return found;
   }
 
-  RodRun run;
+  RecordedRun run;
   std::size_t n;
 };
 
 TEST_P(FalseReportOfRods, OfACollisionLeftOutIsSeen) {
-  run.happenings.erase(run.happenings.begin() + static_cast<std::ptrdiff_t>(n));
+  run.leave_out(n);
   EXPECT_GE(count(Kind::missed), 1u);
 }
 
@@ -144,7 +128,7 @@ TEST_P(FalseReportOfRods, OfACollisionThatWasNotIsSeen) {
   invented.event.offset -= 1e-4;
   invented.event.time -= 1e-4;
   while (n > 0 && invented.event.time < run.happenings[n - 1].event.time) --n;
-  run.happenings.insert(run.happenings.begin() + static_cast<std::ptrdiff_t>(n), invented);
+  run.insert(n, invented);
   const Findings findings = run.audited();
   EXPECT_GE(findings.count(Kind::spurious) + findings.count(Kind::early), 1u);
   EXPECT_GE(findings.count(Kind::wrong_rule), 1u);
@@ -154,7 +138,7 @@ TEST_P(FalseReportOfRods, OfACollisionThatWasNotIsSeen) {
 TEST_P(FalseReportOfRods, OfACollisionAgainIsSeen) {
   Happening again = run.happenings[n];
   again.event.offset += 0x1p-50;
-  run.happenings.insert(run.happenings.begin() + static_cast<std::ptrdiff_t>(n) + 1, again);
+  run.insert(n + 1, again);
   EXPECT_GE(count(Kind::spurious), 1u);
 }
 
@@ -184,23 +168,29 @@ TEST_P(FalseReportOfRods, OfOtherRodsIsSeen) {
   const auto found = [&](Kind kind, auto&& alter) {
     std::vector<Species> species = run.setup.composition.species();
     alter(species[0]);
-    RodRun other = run;
+    RecordedRun other = run;
     other.setup.composition = Composition(species, {});
+    other.initial.own_bodies = {};  // which say it again where bodies grow
     return other.audited().count(kind);
   };
   EXPECT_GT(found(Kind::late, [](Species& rod) { rod.diameter *= 1 + 1e-6; }), 0u);
   // Smaller spheres are not even within reach where they have collided.
-  const Kind too_soon = GetParam() == 0 ? Kind::spurious : Kind::early;
+  const bool are_spheres = GetParam().length == 0;
+  const Kind too_soon = are_spheres ? Kind::spurious : Kind::early;
   EXPECT_GT(found(too_soon, [](Species& rod) { rod.diameter *= 1 - 1e-6; }), 0u);
-  if (GetParam() == 0) return;
+  if (are_spheres) return;
   EXPECT_GT(found(Kind::wrong_rule, [](Species& rod) { rod.k *= 1 + 1e-8; }), 0u);
   EXPECT_GT(found(Kind::missed, [](Species& rod) { rod.length *= 1.01; }), 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(SpheresAndRods, FalseReportOfRods, testing::Values(0.0, 5.0),
-                         [](const auto& info) {
-                           return info.param == 0 ? std::string("Spheres") : std::string("Rods");
-                         });
+std::string name_of_rods(const testing::TestParamInfo<Rods>& info) {
+  return std::string(info.param.growth > 0 ? "Growing" : "") +
+         (info.param.length == 0 ? "Spheres" : "Rods");
+}
+
+INSTANTIATE_TEST_SUITE_P(SpheresAndRods, FalseReportOfRods,
+                         testing::Values(Rods{0}, Rods{5}, Rods{0, 0.05}, Rods{2, 0.05}),
+                         name_of_rods);
 
 }  // namespace
 }  // namespace needlework::test

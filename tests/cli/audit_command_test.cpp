@@ -19,6 +19,10 @@ until.collisions_per_needle = 60
 collisions = { epsilon = 0.5, sliding = true }
 until.collisions_per_needle = 8
 )");
+    write("growing.toml", R"(needles = { count = 100, box = 8, diameter = 0.9 }
+driving.growth = { rate = 0.05, until_packing = 0.4 }
+until.collisions_per_needle = 60
+)");
   }
 
   // The first piece ends soon after the program has begun to listen to signals. Each is twice as
@@ -102,6 +106,15 @@ TEST_F(AuditCommand, ChecksNeedlesThatSlideButNotBesideWallsAndKicks) {
   }
 }
 
+TEST_F(AuditCommand, ChecksBodiesThatGrow) {
+  const std::string growing = "audit growing.toml --set until.collisions_per_needle=6";
+  const json result = json_of(growing + " --json");
+  EXPECT_GT(result["coolings"], 2);
+  EXPECT_TRUE(contains(run(growing).out, "at which velocities were scaled back"));
+  EXPECT_TRUE(run(growing + " --set collisions.tc_relative=1e-3 --set collisions.epsilon=0.9")
+                  .fails(3, "expected no collisions.tc_relative"));
+}
+
 TEST_F(AuditCommand, TakesAShareOfThePairs) {
   const json all = run("audit small.toml --json").json();
   const json some = run("audit small.toml --json --share 0.1 --seed 3").json();
@@ -118,6 +131,7 @@ TEST_F(AuditCommand, GoesOnWhereItWasInterrupted_long) {
   goes_on("audit cooling.toml");
   goes_on("audit cooling.toml --set needles.diameter=0.05 --set until.collisions_per_needle=20");
   goes_on("audit sliding.toml");
+  goes_on("audit growing.toml");
 }
 
 TEST_F(AuditCommand, SavesWhenStopped) {

@@ -19,6 +19,7 @@ audit::Checkpoint some_checkpoint() {
   out.findings.checked = 300;
   out.findings.escalated = 2;
   out.findings.undecided = 1;
+  out.findings.coolings = 6;
   for (std::size_t n = 0; n < out.findings.differences.size(); ++n) out.findings.differences[n] = n;
   out.findings.listed = {{audit::Kind::late, 0.1, 3, 4},
                          {audit::Kind::missed, 1e-300, 0, 4000000000}};
@@ -42,6 +43,7 @@ TEST(AuditState, IsReadAsItWasWritten) {
   EXPECT_EQ(read->findings.checked, saved.findings.checked);
   EXPECT_EQ(read->findings.escalated, saved.findings.escalated);
   EXPECT_EQ(read->findings.undecided, saved.findings.undecided);
+  EXPECT_EQ(read->findings.coolings, saved.findings.coolings);
   EXPECT_EQ(read->findings.differences, saved.findings.differences);
   ASSERT_EQ(read->findings.listed.size(), saved.findings.listed.size());
   for (std::size_t n = 0; n < saved.findings.listed.size(); ++n) {

@@ -29,7 +29,7 @@ inline audit::Findings audited(const Scene& scene, double time, const audit::Set
   simulation.on_kick([&] {
     State after = simulation.copy();
     if (alter) alter(after);
-    audit.add_kick(after);
+    audit.add_kick(after, simulation.time());
   });
   const Stop stop = simulation.advance(until_time(time));
   audit.finish(simulation.time());
