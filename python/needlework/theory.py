@@ -172,8 +172,9 @@ def mixture_rates(gas: Mapping[str, Any], t_tr: ArrayLike, t_rot: ArrayLike) -> 
         length, mass and k ([species]); epsilon and beta of each two ([species, species]). One
         number stands for all, and length = 1, mass = 1, k = 6, epsilon = 1 and beta = -1 for what
         is not given. With a diameter they are rods of finite width, homogeneous where k is not
-        given, for which this is exact at low density. Bodies that differ within a species, and
-        fixed ones, are refused.
+        given, for which this is exact at low density; with length = 0 spheres, homogeneous ones
+        where beta makes them rough. Bodies that differ within a species, and fixed ones, are
+        refused.
     """
     given, size = _mixture(gas)
     collisions, d_tr, d_rot = _core.mixture_rates(*given, _each("t_tr", t_tr, size),
@@ -193,8 +194,9 @@ def mixture_cooling(gas: Mapping[str, Any], t_tr0: ArrayLike, t_rot0: ArrayLike,
     t_tr, t_rot = _core.mixture_cooling(*given, _each("t_tr0", t_tr0, size),
                                         _each("t_rot0", t_rot0, size), times)
     share = given[0] / max(given[0].sum(), 1)
+    freedoms = np.where(given[1] > 0, 1.0, 1.5)  # half the rotational ones: three of a rough sphere
     return MixtureCurve({"time": times, "t_tr": t_tr, "t_rot": t_rot,
-                         "energy": (1.5 * t_tr + t_rot) @ share})
+                         "energy": (1.5 * t_tr + freedoms * t_rot) @ share})
 
 
 def equipartition_k() -> float:

@@ -91,6 +91,14 @@ Composition composition_of(const Column& counts, const Column& lengths, const Co
       out.set_meets(a, b, meet.data()[a * size + b] != 0);
     }
   }
+  for (std::size_t n = 0; n < size; ++n) {
+    Species body = out[n];
+    for (std::size_t other = 0; other < size; ++other) {
+      if (out.are_spheres(n, other) && out.restitution(n, other).is_rough())
+        body.q = 0.4;  // homogeneous
+    }
+    out.set_species(n, body);
+  }
   return out;
 }
 

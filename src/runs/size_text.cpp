@@ -50,7 +50,7 @@ std::string shape_text(const Species& species) {
   const bool differ = species.sizes && !species.sizes->diameter.is_one();
   const std::string width =
       differ ? "different diameters" : fmt::format("diameter {:g}", species.diameter);
-  if (!species.has_axis()) return "spheres of " + width;
+  if (!species.has_axis()) return (species.turns() ? "rough spheres of " : "spheres of ") + width;
   if (species.diameter > 0) {
     const std::string rods = "rods of " + width;
     return species.fixed ? rods : rods + ", " + k_text(species);
