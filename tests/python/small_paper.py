@@ -23,6 +23,7 @@ SLIDING = {**FEW, "needles.box": 4, "collisions.epsilon": [0.8, 0.5], "until.ene
 SHEAR = {"needles.count": 16, "needles.box": 2.5, "until.time": 8}
 OBSTACLES = {"species.moving.count": 30, "species.still.count": 100, "until.time": 5,
              "output.series_every": 0.05}
+GROWTH = {"driving.growth.rate": [0.1], "output.series_per_decade": 500}
 LIQUID = {**FEW, "until.time": 3, "output.series_every": 0.02}
 
 
@@ -122,6 +123,13 @@ GRIDS = {
     "obstacles-beads-dense": ("obstacles-spheres", {**OBSTACLES, "needles.box": 2.1,
                                                     "species.still.diameter": 0.04}),
     "obstacles-points": ("obstacles-points", {**OBSTACLES, "needles.box": [5, 4]}),
+    "packings": ("packings", {"species.spheres.count": 30, "needles.box": 4, **GROWTH}),
+    "packings-slow": ("packings", {"species.spheres.count": 30, "needles.box": 4, **GROWTH,
+                                   "driving.growth.rate": [0.05]}),
+    "packings-mixture": ("packings-mixture", {"species.small.count": 15, "species.large.count": 15,
+                                              "needles.box": 5, **GROWTH}),
+    "packings-rods": ("packings-rods", {"species.rods.count": 40, "needles.box": 9,
+                                        "species.rods.length": [0.2, 0.45, 1], **GROWTH}),
 }
 """Scene and parameters of each set of runs; seeds are 1, 2 and 3."""
 
