@@ -172,7 +172,7 @@ def _draw_spheres(panel: Axes, table: Table) -> None:
                      linewidth=0.8, label=NAMES[int(kind)], **look)
         known = KNOWN[int(kind)]
         panel.plot(list(known), list(known.values()), "D", mfc="none", markersize=6,
-                   linestyle="none", label="another program", **look)
+                   linestyle="none", label=f"{NAMES[int(kind)]}, known", **look)
     style.label(panel, r"$\Gamma$", r"$\phi_{\rm J}$", "Spheres, against the rate of growth",
                 log="x")
 
@@ -213,5 +213,7 @@ def _draw_divergence(panel: Axes, table: Table) -> None:
                      linewidth=0.8, **look)
     for freedoms in (3, 5):
         panel.axhline(freedoms, color="grey", linewidth=0.9, linestyle=":")
+    panel.set_ylim(2, 7)
     style.label(panel, "$Z = PV/NT$", r"$Z\,(1 - \phi/\phi_{\rm J})$",
-                rf"Divergence of the pressure, $\Gamma = {slow:g}$", log="x")
+                rf"Divergence of the pressure, $\Gamma = {slow:g}$", log="x", legend=False)
+    panel.legend(ncols=2)
