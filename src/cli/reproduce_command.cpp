@@ -27,7 +27,8 @@ const std::vector<Group>& groups() {
       {"rods", {"rods", "rods-flow", "nematic"}},
       {"sliding contact", {"sliding"}},
       {"liquid", {"liquid", "liquid-correlations"}},
-      {"fixed bodies", {"obstacles"}}};
+      {"fixed bodies", {"obstacles"}},
+      {"growth", {"packings"}}};
   return all;
 }
 

@@ -25,6 +25,7 @@ OBSTACLES = {"species.moving.count": 30, "species.still.count": 100, "until.time
              "output.series_every": 0.05}
 ROUGH_SPHERES = {"species.spheres.count": 40, "needles.box": 16.1,
                  "until.collisions_per_needle": 160}
+GROWTH = {"driving.growth.rate": [0.1], "output.series_per_decade": 500}
 LIQUID = {**FEW, "until.time": 3, "output.series_every": 0.02}
 
 
@@ -128,6 +129,13 @@ GRIDS = {
     "obstacles-beads-dense": ("obstacles-spheres", {**OBSTACLES, "needles.box": 2.1,
                                                     "species.still.diameter": 0.04}),
     "obstacles-points": ("obstacles-points", {**OBSTACLES, "needles.box": [5, 4]}),
+    "packings": ("packings", {"species.spheres.count": 30, "needles.box": 4, **GROWTH}),
+    "packings-slow": ("packings", {"species.spheres.count": 30, "needles.box": 4, **GROWTH,
+                                   "driving.growth.rate": [0.05]}),
+    "packings-mixture": ("packings-mixture", {"species.small.count": 15, "species.large.count": 15,
+                                              "needles.box": 5, **GROWTH}),
+    "packings-rods": ("packings-rods", {"species.rods.count": 40, "needles.box": 9,
+                                        "species.rods.length": [0.2, 0.45, 1], **GROWTH}),
 }
 """Scene and parameters of each set of runs; seeds are 1, 2 and 3."""
 

@@ -1,8 +1,8 @@
 """All figures, those of the paper first."""
 
 from . import (alignment, boltzmann, causes, confined, dense, dilute, driving, flow, flows,
-               fluctuations, large, liquid, nematic, obstacles, ratio, relaxation, rods, rough_spheres,
-               shear, sliding)
+               fluctuations, large, liquid, nematic, obstacles, packings, ratio, relaxation, rods,
+               rough_spheres, shear, sliding)
 from .figure import Figure
 
 FIGURES = {figure.name: figure for figure in (
@@ -97,5 +97,7 @@ FIGURES = {figure.name: figure for figure in (
            liquid.SETS, liquid.measure_correlations, liquid.draw_correlations),
     Figure("obstacles", "Beyond the paper: diffusion of needles among bodies that do not move",
            tuple(obstacles.SETS), obstacles.measure_obstacles, obstacles.draw_obstacles),
+    Figure("packings", "Beyond the paper: packings of spheres and rods that grow until they jam",
+           tuple(packings.SETS), packings.measure_packings, packings.draw_packings),
 )}
 """By name, as the command takes it."""

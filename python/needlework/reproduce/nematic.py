@@ -37,11 +37,9 @@ def measure_nematic(runs: PaperRuns) -> Result:
         packing = packing_of(gas)
         order = measure(point, lambda run: float(np.mean(_orders(run)[-_late_samples(run):])))
         pressure = measure(point, lambda run: _excess(run) + 1).over(1 / packing)
-        # Of N random directors the largest eigenvalue is not 0; this is its mean to a few percent.
-        random = 1.1 / np.sqrt(gas.count)
         courses = [_course(run) for run in point.runs]
-        result.add_rows(STARTS.index(start), packing, *order[:2], random, *pressure[:2],
-                        point.seeds, np.mean([at for at, _ in courses], axis=0),
+        result.add_rows(STARTS.index(start), packing, *order[:2], random_order(gas.count),
+                        *pressure[:2], point.seeds, np.mean([at for at, _ in courses], axis=0),
                         *mean_and_error([course for _, course in courses]))
         variant = f"packing fraction {packing:.3g}"
         result.add("nematic-order", order, f"{variant}, {start}")
@@ -54,6 +52,12 @@ def measure_nematic(runs: PaperRuns) -> Result:
         above, below = (orders[start] for start in STARTS)
         result.add("nematic-hysteresis", above.less(below), variant)
     return result
+
+
+def random_order(count: int) -> float:
+    """The mean order of so many random directors, whose greatest eigenvalue is not 0; to a few
+    percent."""
+    return 1.1 / np.sqrt(count)
 
 
 def draw_nematic(table: Table) -> Figure:
