@@ -59,10 +59,10 @@ inside() {
   local compiler=()
   if [[ -n ${CCACHE_DIR:-} ]]; then
     mkdir -p "$root/ccache" "$CCACHE_DIR"
-    compiler=(CCACHE_DIR=/ccache CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache)
+    compiler=(CCACHE_DIR=/ccache CCACHE_BASEDIR=/needlework CCACHE_MAXSIZE=20G CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache)
   fi
-  env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 \
-    DEBIAN_FRONTEND=noninteractive NPROC="$(nproc)" "${compiler[@]}" \
+  env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 \
+    LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive "${compiler[@]}" \
     unshare --mount --pid --fork bash -c '
       mount -t proc proc "$1/proc"
       mount --rbind /dev "$1/dev"
@@ -95,7 +95,7 @@ nothing_is_left() {
   echo "Nothing is left."
 }
 
-# right_hash TEXT: whether a run of the README's scene printed the hash.
+# The scene of the README, by the program that is installed, and by the Python package.
 program_runs() {
   inside "mkdir -p /tmp/run && cd /tmp/run && cp /release/readme.toml gas.toml &&
     needlework run gas.toml --json --quiet --force | grep -F '\"'\$(cat /release/first-run.hash)'\"'"
@@ -144,8 +144,8 @@ part_source() {
   inside "cd /needlework && cmake --build build/release --target uninstall"
   nothing_is_left
   # Tests of the archive are configured, and one of each kind is built and run.
-  inside "cd /needlework && source cmake/setup.sh && install_packages tests python &&
-    apt-get remove --yes git && configure_release ON &&
+  inside "apt-get install --yes --no-install-recommends libgtest-dev libeigen3-dev"
+  inside "cd /needlework && source cmake/setup.sh && install_packages python && configure_release ON &&
     cmake --build build/release --target test_trajectory with_cpu_time needlework_program &&
     ctest --test-dir build/release --output-on-failure -R '^(docs.links|layers.one_way|cli.hostile_inputs|TrajectoryHash)'"
   echo "Tests of the archive are built and run without git."
