@@ -62,7 +62,7 @@ inside() {
     compiler=(CCACHE_DIR=/ccache CCACHE_BASEDIR=/needlework CCACHE_MAXSIZE=20G CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache)
   fi
   env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 \
-    LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive "${compiler[@]}" \
+    DEBIAN_FRONTEND=noninteractive "${compiler[@]}" \
     unshare --mount --pid --fork bash -c '
       mount -t proc proc "$1/proc"
       mount --rbind /dev "$1/dev"
