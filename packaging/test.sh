@@ -131,7 +131,7 @@ part_source() {
   inside 'tar -C / -xf /release/needlework-*.tar.gz && mv /needlework-* /needlework'
   # As the container does it, but for what that removes to be small.
   local steps
-  steps=$(sed -n '/^RUN /,/[^\\]$/p' Containerfile | sed 's/^RUN //; s/\\$//; /rm -rf build/d')
+  steps=$(sed -n '/^RUN /,/[^\\]$/p' Containerfile | sed 's/^RUN //; s/\\$//; /rm -rf build/d' | tr '\n' ' ')
   [[ $steps == *quickstart.sh*"cmake --install build/release"* ]] ||
     fail "Containerfile: expected quickstart.sh and cmake --install, not $steps"
   inside "cd /needlework && ./quickstart.sh"
