@@ -178,11 +178,12 @@ std::optional<OpenCheckpoint> open_checkpoint(const std::string& path) {
   struct stat status;
   if (fstat(fileno(file.get()), &status) != 0) throw unreadable(path, errno);
   if (!S_ISREG(status.st_mode)) throw InputError(path + ": expected an ordinary file");
-  require_mark(path, read_line(file.get(), path));
+  const std::string line = read_line(file.get(), path);
+  require_mark(path, line);
   Header header;
   const std::string head = read_bytes(file.get(), sizeof header, path);
   const auto size = static_cast<std::uint64_t>(status.st_size);
-  constexpr std::uint64_t begin = mark.size() + sizeof header;
+  const std::uint64_t begin = line.size() + sizeof header;
   if (head.size() < sizeof header || size < begin) throw damaged(path, "it is cut short");
   std::memcpy(&header, head.data(), sizeof header);
   return OpenCheckpoint{std::move(file), header, size - begin};

@@ -57,21 +57,34 @@ def check_last_frame(program, expected):
     assert result["collisions"] >= expected["collisions"], result
 
 
-def check_checkpoint(program, expected):
-    """Continued by versions with the same first two numbers, or refused with nothing changed."""
+RESUME = ("resume", "gas.h5", "--set", "until.collisions_per_needle=50", "--json", "--quiet")
+
+
+def check_refused(program):
+    """With what wrote it, what continues it and what else can be done, and nothing is changed."""
     names = ("gas.h5", "gas.h5.checkpoint")
     before = [(program.folder / name).read_bytes() for name in names]
-    written = MARK.match(before[1]).groups()
-    resume = ("resume", "gas.h5", "--set", "until.collisions_per_needle=50", "--json", "--quiet")
-    if written == program.mark():
-        result = json.loads(program.run(*resume))
-        assert result["trajectory_hash"] == expected["resumed_hash"], result
-        return "continued"
-    said = program.run(*resume, code=3)
-    for part in (b" of ".join(written).decode(), b" of ".join(program.mark()).decode(), "initial.file"):
+    said = program.run(*RESUME, code=3)
+    for part in (b" of ".join(MARK.match(before[1]).groups()).decode(),
+                 b" of ".join(program.mark()).decode(), "initial.file"):
         assert part in said, (part, said)
     assert [(program.folder / name).read_bytes() for name in names] == before, "files have changed"
-    return "refused"
+
+
+def check_checkpoint(program, expected):
+    """Continued by versions with the same first two numbers, or refused; one of a version that there
+    is not yet is refused in any case."""
+    checkpoint = program.folder / "gas.h5.checkpoint"
+    whole = checkpoint.read_bytes()
+    checkpoint.write_bytes(re.sub(rb" of \d+\.", b" of 99.", whole, count=1))
+    check_refused(program)
+    checkpoint.write_bytes(whole)
+    if MARK.match(whole).groups() != program.mark():
+        check_refused(program)
+        return "refused"
+    result = json.loads(program.run(*RESUME))
+    assert result["trajectory_hash"] == expected["resumed_hash"], result
+    return "continued"
 
 
 PYTHON = """

