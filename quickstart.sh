@@ -11,3 +11,9 @@ cmake --build --preset release
 build/release/needlework --version
 echo
 build/release/needlework run profiles/quickstart.toml --out build/quickstart.h5 --force
+cat <<'NEXT'
+
+That run is in build/quickstart.h5. Next, look at it in a browser:
+  build/release/needlework report build/quickstart.h5 -o build/quickstart.html
+or write a scene of your own: README.md, "Your own scene".
+NEXT

@@ -57,6 +57,7 @@ print('lib/python%d.%d/' % sys.version_info[:2]
                 OUTPUT_VARIABLE python_folder COMMAND_ERROR_IS_FATAL ANY)
 set(NEEDLEWORK_PYTHON_FOLDER ${python_folder} CACHE STRING
     "Where the Python package is installed, below the prefix")
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME python)
 install(TARGETS needlework_python DESTINATION ${NEEDLEWORK_PYTHON_FOLDER}/needlework)
 install(DIRECTORY python/needlework DESTINATION ${NEEDLEWORK_PYTHON_FOLDER}
         FILES_MATCHING PATTERN *.py PATTERN *.pyi PATTERN py.typed)

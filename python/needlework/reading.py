@@ -162,12 +162,13 @@ class Recording(NotPickled):
 
     @cached_property
     def series(self) -> Series:
-        """Sums over all needles, many times per decade of time."""
+        """Sums over all needles, many times per decade of time. A file of an earlier version may
+        lack some."""
         group = self._group("series", "a file of a run with a series")
         samples = len(group["step"])
         columns = {"time": group["time"][:samples]}
         columns |= {name: group[name]["value"][:samples]
-                    for name in Series.__annotations__ if name != "time"}
+                    for name in Series.__annotations__ if name != "time" and name in group}
         return Series(columns)
 
     def observable(self, name: str) -> Values:
@@ -210,8 +211,10 @@ class Recording(NotPickled):
                                             "momentum": np.empty((0, 2, 3))})
         group = self._file["velocities_set"]
         changes = len(group["step"])
-        return VelocitiesSet({name: group["step" if name == "collisions" else name][:changes]
-                              for name in VelocitiesSet.__annotations__})
+        stored = {name: "step" if name == "collisions" else name
+                  for name in VelocitiesSet.__annotations__}
+        return VelocitiesSet({name: group[dataset][:changes] for name, dataset in stored.items()
+                              if dataset in group})
 
     @cached_property
     def data(self) -> dict[str, Any]:

@@ -59,8 +59,11 @@ static void transfer(Archive& archive, RunFailure& failure) {
 namespace {
 
 // The first line. Its number is to be changed whenever what is saved changes, here or in any
-// function `transfer`. The version is there because the trajectory may change without that.
+// function `transfer`. The version is there because the trajectory may change without that, which
+// patch versions leave as it is.
 constexpr std::string_view mark = "needlework checkpoint 10 of " NEEDLEWORK_VERSION "\n";
+// What it has in common with those of other patch versions.
+constexpr std::string_view mark_but_patch = mark.substr(0, mark.rfind('.') + 1);
 
 constexpr std::string_view checkpoint_ending = ".checkpoint";
 constexpr std::string_view older_ending = ".old";
@@ -136,15 +139,19 @@ std::string read_line(std::FILE* file, const std::string& path) {
 }
 
 void require_mark(const std::string& path, std::string_view line) {
-  if (line == mark) return;
+  if (line.starts_with(mark_but_patch) && line.ends_with('\n')) {
+    const std::string_view patch = line.substr(mark_but_patch.size());
+    if (patch.size() > 1 && patch.find_first_not_of("0123456789") == patch.size() - 1) return;
+  }
   constexpr std::string_view any_version = "needlework checkpoint ";
   if (!line.starts_with(any_version)) throw damaged(path, "expected a checkpoint");
   const auto quoted = [](std::string_view text) {
     return printable(text.substr(0, text.find('\n')));
   };
   throw InputError(fmt::format(
-      "{}: \"{}\": expected \"{}\": a run is continued by the version of the program that began it",
-      path, quoted(line), quoted(mark)));
+      "{}: \"{}\": expected \"{}*\": a run is continued by versions with the same major and minor "
+      "number as the one that began it; a new run starts from its last frame by initial.file",
+      path, quoted(line), quoted(mark_but_patch)));
 }
 
 // A checksum says nothing about a file that somebody has made.
@@ -171,11 +178,12 @@ std::optional<OpenCheckpoint> open_checkpoint(const std::string& path) {
   struct stat status;
   if (fstat(fileno(file.get()), &status) != 0) throw unreadable(path, errno);
   if (!S_ISREG(status.st_mode)) throw InputError(path + ": expected an ordinary file");
-  require_mark(path, read_line(file.get(), path));
+  const std::string line = read_line(file.get(), path);
+  require_mark(path, line);
   Header header;
   const std::string head = read_bytes(file.get(), sizeof header, path);
   const auto size = static_cast<std::uint64_t>(status.st_size);
-  constexpr std::uint64_t begin = mark.size() + sizeof header;
+  const std::uint64_t begin = line.size() + sizeof header;
   if (head.size() < sizeof header || size < begin) throw damaged(path, "it is cut short");
   std::memcpy(&header, head.data(), sizeof header);
   return OpenCheckpoint{std::move(file), header, size - begin};

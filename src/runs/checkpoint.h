@@ -81,7 +81,7 @@ class CheckpointFiles {
     std::string warning;  ///< why it is not the newest, or empty
   };
   /// The newest one that is whole and can be read. If there is none, throws IoError if one cannot
-  /// be read, and InputError if they are missing, damaged or of another version of the program.
+  /// be read, and InputError if they are missing, damaged or of another major or minor version.
   Latest latest() const;
   /// The checkpoint or bundle in a file of any name. Throws as latest() does.
   static RunCheckpoint read(const std::string& path);

@@ -1,5 +1,5 @@
 # Installs BUILD into a new prefix, builds SOURCE against it in several ways and runs what comes out.
-# cmake -DBUILD=... -DSOURCE=... -DWORK=... -DCXX=... -DFLAGS=... -DTYPE=... -DOBJDUMP=... -P this
+# cmake -DBUILD=... -DSOURCE=... -DWORK=... -DCXX=... -DFLAGS=... -DTYPE=... -DOBJDUMP=... -DVERSION=... -P this
 function(run)
   execute_process(COMMAND ${ARGV} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
@@ -9,7 +9,7 @@ macro(configure name example components)
   execute_process(
     COMMAND ${CMAKE_COMMAND} -E env --unset=CMAKE_GENERATOR ${CMAKE_COMMAND} -S ${SOURCE}
             -B ${WORK}/${name} -DCMAKE_BUILD_TYPE=${TYPE} -DCMAKE_CXX_COMPILER=${CXX}
-            -DCMAKE_CXX_FLAGS=${FLAGS} -DEXAMPLE=${example} "-DCOMPONENTS=${components}" ${ARGN}
+            -DCMAKE_CXX_FLAGS=${FLAGS} -DVERSION=${VERSION} -DEXAMPLE=${example} "-DCOMPONENTS=${components}" ${ARGN}
     RESULT_VARIABLE configured OUTPUT_VARIABLE messages ERROR_VARIABLE messages)
 endmacro()
 

@@ -19,7 +19,7 @@ FILE = re.compile(r"`((?:[a-z_.-]+/)+[a-z0-9_.-]+\.(?:h|cpp|py|toml|md|txt))`")
 
 def documents():
     folders = ["docs", "src", "kernels", "include", "tests", "bench", "profiles", "cmake",
-               "examples"]
+               "examples", "packaging", "paper"]
     found = [*ROOT.glob("*.md"), *(d for f in folders for d in (ROOT / f).rglob("*.md"))]
     assert len(found) > 20, found
     return sorted(found)
@@ -160,6 +160,13 @@ class Documents(unittest.TestCase):
     def test_all_pages_together_are_short(self):
         words = sum(len(path.read_text().split()) for path in (ROOT / "docs").rglob("*.md"))
         self.assertLessEqual(words, 60000)
+
+    def test_paper_is_short_and_its_references_are_those_that_it_cites(self):
+        text = (ROOT / "paper/paper.md").read_text()
+        body = text[text.index("# Summary"):text.index("# Numbers and their commands")]
+        self.assertLessEqual(len(body.split()), 1600)
+        listed = re.findall(r"^@\w+\{(\w+),", (ROOT / "paper/paper.bib").read_text(), re.M)
+        self.assertEqual(sorted(listed), sorted(set(re.findall(r"@([A-Za-z]\w+)", body))))
 
     def test_front_page_is_short(self):
         text = (ROOT / "README.md").read_text()

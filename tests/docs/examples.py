@@ -3,6 +3,7 @@
     examples.py NEEDLEWORK README_PROGRAM
 """
 
+import json
 import re
 import subprocess
 import sys
@@ -60,6 +61,9 @@ def main(needlework, readme_program):
         gas, = blocks("README.md", "toml")
         Path(folder, "gas.toml").write_text(gas)
         run(needlework, "run", "gas.toml", "--log", "gas.jsonl")
+        ended = json.loads(Path(folder, "gas.jsonl").read_text().splitlines()[-1])
+        # What packages must give where they are installed: packaging/test.sh.
+        assert ended["trajectory_hash"] == (ROOT / "packaging/first-run.hash").read_text().strip(), ended
         script, = blocks("docs/json.md", "python")
         printed = run(sys.executable, "-c", script)
         assert "energy at collision" in printed, printed

@@ -247,6 +247,19 @@ class Reading(unittest.TestCase):
         with self.assertRaisesRegex(InputError, "expected the file of a run"):
             read(other)
 
+    def test_a_file_may_lack_what_later_versions_have_added(self):
+        import h5py
+        path = Path(self.folder.name, "earlier.h5")
+        path.write_bytes(self.path.read_bytes())
+        with h5py.File(path, "r+") as file:
+            del file["series/tc_collisions"], file["velocities_set/t_rot"]
+        with read(path) as recording:
+            self.assertEqual([*recording.series, "tc_collisions"], list(self.recording.series))
+            np.testing.assert_array_equal(recording.series.energy, self.recording.series.energy)
+            with self.assertRaisesRegex(AttributeError, "Series has no tc_collisions: expected time"):
+                recording.series.tc_collisions
+            self.assertNotIn("t_rot", recording.velocities_set)
+
     def test_series_of_totals(self):
         sim = Simulation(GAS)
         samples = [sim.totals]

@@ -1,5 +1,5 @@
-// Prints the numbers of all results, and the fields that series have of them, as JSON, for
-// declare.py.
+// Prints the numbers of all results, the fields that series have of them, and the keys of scenes,
+// as JSON, for declare.py and for tests/compatibility/names.py.
 #include <algorithm>
 #include <concepts>
 #include <cstdio>
@@ -12,6 +12,7 @@
 #include "src/observe/observation.h"
 #include "src/runs/results.h"
 #include "src/scene/observable_names.h"
+#include "src/scene/schema.h"
 
 namespace needlework {
 namespace {
@@ -123,13 +124,24 @@ Json groups() {
           {"observables_at_walls", with_wall_observables().output.observables}};
 }
 
+// By "section.key", with what each is expected to be.
+Json keys_of_scenes() {
+  Json out = Json::object();
+  for (const SceneKey& key : scene_keys()) {
+    const std::string section = key.section.empty() ? "" : std::string(key.section) + ".";
+    out[section + std::string(key.key)] = key.expected;
+  }
+  return out;
+}
+
 }  // namespace
 }  // namespace needlework
 
 int main() {
   std::puts(needlework::Json{{"results", needlework::results()},
                              {"series", needlework::series()},
-                             {"groups", needlework::groups()}}
+                             {"groups", needlework::groups()},
+                             {"scene_keys", needlework::keys_of_scenes()}}
                 .dump(1)
                 .c_str());
 }

@@ -147,7 +147,9 @@ TEST_F(CheckpointFile, CutShortAtAnyByteIsDamaged_long) {
 TEST_F(CheckpointFile, WithAnyByteChangedIsDamaged_long) {
   files.write(sample(1));
   const std::string whole = bytes();
+  const std::size_t patch_version = whole.find('\n') - 1;  // may be another
   for (std::size_t n = 0; n < whole.size(); ++n) {
+    if (n == patch_version) continue;
     std::string changed = whole;
     changed[n] ^= static_cast<char>(1 << n % 8);
     put(changed);
@@ -158,11 +160,29 @@ TEST_F(CheckpointFile, WithAnyByteChangedIsDamaged_long) {
 TEST_F(CheckpointFile, OfAnotherVersionIsNamed) {
   files.write(sample(1));
   const std::string whole = bytes(), mark = mark_of(whole);
-  for (const std::string other : {"needlework checkpoint 0", "needlework checkpoint 4 of 0.0.1"}) {
+  const std::string but_patch = mark.substr(0, mark.rfind('.') + 1);
+  for (const std::string& other :
+       {std::string("needlework checkpoint 0"), std::string("needlework checkpoint 4 of 0.0.1"),
+        but_patch, but_patch + "1.2", "1" + but_patch + "1"}) {
     put(other + whole.substr(mark.size()));
-    EXPECT_EQ(complaint(),
-              files.newest() + ": \"" + other + "\": expected \"" + mark +
-                  "\": a run is continued by the version of the program that began it");
+    const std::string expected = "expected \"" + but_patch +
+                                 "*\": a run is continued by versions "
+                                 "with the same major and minor number as the one that began it; a "
+                                 "new run starts from its last frame by initial.file";
+    if (other.starts_with("needlework checkpoint ")) {
+      EXPECT_EQ(complaint(), files.newest() + ": \"" + other + "\": " + expected);
+    } else {
+      EXPECT_EQ(complaint(), files.newest() + ": damaged: expected a checkpoint");
+    }
+  }
+}
+
+TEST_F(CheckpointFile, OfAnotherPatchVersionIsRead) {
+  files.write(sample(1));
+  const std::string whole = bytes(), mark = mark_of(whole);
+  for (const std::string patch : {"0", "7", "12"}) {
+    put(mark.substr(0, mark.rfind('.') + 1) + patch + whole.substr(mark.size()));
+    EXPECT_EQ(complaint(), "") << patch;
   }
 }
 

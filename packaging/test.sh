@@ -1,0 +1,216 @@
+#!/usr/bin/env bash
+# Tests what a release consists of, each in a bare root of a Debian:
+#
+#   packaging/test.sh bookworm|trixie [PART...]
+#
+# As root, with debootstrap. PART is one of these, all in this order without any:
+#
+#   source   the archive without git and npm: quickstart.sh, as the container does it, cmake --install,
+#            the C++ program of the README by find_package, one in C by pkg-config
+#   tests    some tests of the archive, built without git; after `source`
+#   build    packages and wheel, which go to dist/SUITE/; after `source`
+#   debian   the packages
+#   wheel    the wheel in a virtual environment with nothing but pip, and NumPy from PyPI
+#
+# Each runs the scene of the README, whose trajectory must be that of packaging/first-run.hash, and is
+# uninstalled; then no file may be left that was not there before. Roots are made below
+# NEEDLEWORK_ROOTS (/var/tmp/needlework-roots); with CCACHE_DIR, compilations are kept there.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+project=$PWD
+suite=${1:?expected a suite of Debian: bookworm or trixie}
+shift
+parts=("$@")
+((${#parts[@]})) || parts=(source tests build debian wheel)
+roots=${NEEDLEWORK_ROOTS:-/var/tmp/needlework-roots}
+dist=$project/dist/$suite
+mkdir -p "$roots" "$dist"
+
+say() { printf '\n== %s: %s\n' "$suite" "$*"; }
+
+fail() {
+  echo "$suite: $*" >&2
+  exit 1
+}
+
+# bare NAME: a new root with what debootstrap installs, and the archive of the sources in it.
+bare() {
+  root=$roots/$suite-$1
+  rm -rf "$root"
+  if [[ ! -f $roots/$suite.tar ]]; then
+    debootstrap --variant=minbase "$suite" "$root" >"$roots/$suite.log"
+    tar -C "$root" -cf "$roots/$suite.tar" .
+  else
+    mkdir "$root"
+    tar -C "$root" -xf "$roots/$suite.tar"
+  fi
+  cp /etc/resolv.conf "$root/etc/"
+  mkdir "$root/release"
+  cp "$project"/dist/needlework-*.tar.gz "$project/packaging/first-run.hash" "$root/release/"
+  # The scene and the programs of the README.
+  local language
+  for language in toml cpp cmake; do
+    sed -n "/^\`\`\`$language\$/,/^\`\`\`\$/{//!p}" "$project/README.md" >"$root/release/readme.$language"
+  done
+  inside 'apt-get update'
+}
+
+# inside COMMAND: runs it in the root as root, with nothing of the environment outside.
+inside() {
+  local compiler=()
+  if [[ -n ${CCACHE_DIR:-} ]]; then
+    mkdir -p "$root/ccache" "$CCACHE_DIR"
+    compiler=(CCACHE_DIR=/ccache CCACHE_BASEDIR=/needlework CCACHE_MAXSIZE=20G CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  fi
+  env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 \
+    DEBIAN_FRONTEND=noninteractive "${compiler[@]}" \
+    unshare --mount --pid --fork bash -c '
+      mount -t proc proc "$1/proc"
+      mount --rbind /dev "$1/dev"
+      [[ -z $3 ]] || mount --bind "$3" "$1/ccache"
+      exec chroot "$1" bash -euo pipefail -c "$2"' inside "$root" "$1" "${CCACHE_DIR:-}" \
+    >"$roots/$suite.log" 2>&1 </dev/null || {
+    tail -40 "$roots/$suite.log" >&2
+    fail "this command failed: $1"
+  }
+}
+
+install_ccache() {
+  [[ -z ${CCACHE_DIR:-} ]] || inside 'apt-get install --yes --no-install-recommends ccache'
+}
+
+# Which files there are, without those of apt and dpkg themselves, caches and logs.
+files() {
+  (cd "$root" && find . -xdev \( -path ./proc -o -path ./dev -o -path ./ccache -o -path ./release \
+    -o -path ./tmp -o -path ./root -o -path ./var/lib/dpkg -o -path ./var/lib/apt -o -path ./var/cache \
+    -o -path ./var/log -o -path ./needlework -o -path ./etc/ld.so.cache \) -prune \
+    -o ! -type d -print -o -iname '*needlework*' -print | sort)
+}
+
+remember_files() { files >"$roots/$suite.before"; }
+
+nothing_is_left() {
+  local left
+  left=$(comm -13 "$roots/$suite.before" <(files))
+  [[ -z $left ]] || fail "left after uninstalling: $left"
+  echo "Nothing is left."
+}
+
+# The scene of the README, by the program that is installed, and by the Python package.
+program_runs() {
+  inside "mkdir -p /tmp/run && cd /tmp/run && cp /release/readme.toml gas.toml &&
+    needlework run gas.toml --json --quiet --force | grep -F '\"'\$(cat /release/first-run.hash)'\"'"
+  echo "The program gives the trajectory."
+}
+
+python_runs() {
+  inside "mkdir -p /tmp/run && cd /tmp/run && cp /release/readme.toml gas.toml && $1 -c '
+import needlework
+sim = needlework.Simulation(\"gas.toml\", force=True)
+sim.run()
+sim.close()
+assert sim.hash == open(\"/release/first-run.hash\").read().strip(), sim.hash
+assert needlework.__file__.startswith(\"$2\"), needlework.__file__'"
+  echo "The Python package gives the trajectory."
+}
+
+# The program of the README by find_package, and the smallest in C by pkg-config.
+clients_run() {
+  inside "rm -rf /tmp/mine && mkdir -p /tmp/mine /tmp/run && cd /tmp/mine &&
+    cp /release/readme.cmake CMakeLists.txt && cp /release/readme.cpp mine.cpp &&
+    cmake -G Ninja -B build && cmake --build build &&
+    cd /tmp/run && cp /release/readme.toml gas.toml && /tmp/mine/build/mine | grep '^hash '"
+  inside "cd /tmp/run && cp '$1/examples/c/smallest.c' . &&
+    gcc smallest.c \$(pkg-config --cflags --libs needlework) -o smallest && ldconfig && ./smallest"
+  echo "Programs in C++ and C are built and run."
+}
+
+part_source() {
+  say "source archive, cmake --install, container"
+  bare build
+  install_ccache
+  inside 'tar -C / -xf /release/needlework-*.tar.gz && mv /needlework-* /needlework'
+  # As the container does it, but for what that removes to be small.
+  local steps
+  steps=$(sed -n '/^RUN /,/[^\\]$/p' Containerfile | sed 's/^RUN //; s/\\$//; /rm -rf build/d' | tr '\n' ' ')
+  [[ $steps == *quickstart.sh*"cmake --install build/release"* ]] ||
+    fail "Containerfile: expected quickstart.sh and cmake --install, not $steps"
+  inside "cd /needlework && ./quickstart.sh"
+  inside '! command -v git && ! command -v npm'
+  inside "apt-get install --yes --no-install-recommends pkg-config"
+  remember_files
+  inside "cd /needlework && $steps"
+  program_runs
+  clients_run /usr/local/share/doc/Needlework
+  inside "cd /needlework && cmake --build build/release --target uninstall"
+  nothing_is_left
+}
+
+part_tests() {
+  say "tests of the archive"
+  root=$roots/$suite-build
+  inside "apt-get install --yes --no-install-recommends libgtest-dev libeigen3-dev"
+  inside "cd /needlework && source cmake/setup.sh && install_packages python && configure_release ON &&
+    cmake --build build/release --target with_cpu_time needlework_program describe_results c_header &&
+    ctest --test-dir build/release --output-on-failure --no-tests=error \\
+      -R '^(docs.links|layers.one_way|cli.hostile_inputs|compatibility.earlier_files|c.header)\$'"
+  inside '! command -v git'
+  echo "Tests are built and run without git."
+}
+
+part_build() {
+  say "packages and wheel"
+  root=$roots/$suite-build
+  inside "cd /needlework && packaging/build.sh packages /release/made"
+  rm -f "$dist"/*
+  cp "$root"/release/made/* "$dist/"
+  ls "$dist"
+}
+
+part_debian() {
+  say "packages of Debian"
+  bare debian
+  # What programs are compiled with, and what the packages depend on, is there before.
+  inside "apt-get install --yes --no-install-recommends g++ cmake ninja-build pkg-config"
+  remember_files
+  cp "$dist"/*.deb "$root/release/"
+  inside "apt-get install --yes --no-install-recommends /release/needlework_*.deb"
+  program_runs
+  inside "apt-get install --yes --no-install-recommends /release/*.deb"
+  program_runs
+  python_runs python3 /usr/lib/python3/dist-packages
+  clients_run /usr/share/doc/Needlework
+  inside "apt-get purge --yes needlework 'libneedlework*' python3-needlework && apt-get autoremove --purge --yes"
+  nothing_is_left
+}
+
+part_wheel() {
+  say "wheel"
+  bare wheel
+  local wheel python
+  wheel=$(echo "$dist"/needlework-*.whl)
+  python=$(sed -n 's/.*-cp3\([0-9]*\)-.*/3.\1/p' <<<"$wheel")
+  cp "$wheel" "$root/release/"
+  # NumPy is fetched outside, where PyPI can be reached by whatever way there is.
+  python3 -m pip download --quiet --python-version "$python" --only-binary=:all: --no-deps \
+    --dest "$root/release" numpy
+  inside "apt-get install --yes --no-install-recommends python3-venv $(libraries)"
+  remember_files
+  inside "python3 -m venv /tmp/env && /tmp/env/bin/pip install --no-index --find-links /release needlework"
+  python_runs /tmp/env/bin/python3 /tmp/env
+  inside "/tmp/env/bin/pip uninstall --yes needlework && ! find /tmp/env | grep -i needlework"
+  nothing_is_left
+}
+
+# The libraries of the system that the module needs, as the package of Debian has found them.
+libraries() {
+  dpkg-deb --field "$(echo "$dist"/python3-needlework_*.deb)" Depends | tr ',' '\n' |
+    sed -n 's/^ *\(lib[^ ]*\).*/\1/p' | tr '\n' ' '
+}
+
+archives=(dist/needlework-*.tar.gz)
+[[ -f ${archives[0]} ]] || packaging/build.sh source
+for part in "${parts[@]}"; do
+  "part_$part"
+done
+say "all of this holds: ${parts[*]}"
