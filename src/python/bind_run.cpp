@@ -46,8 +46,8 @@ State state_of(const Arrays& arrays) {
   if (const SpeciesIndices& species = std::get<6>(arrays)) {
     state.species.assign(species->data(), species->data() + species->size());
   }
-  auto& [names, length, diameter, mass, k] = state.bodies;
-  std::tie(names, length, diameter, mass, k) = std::get<7>(arrays);
+  auto& [names, length, diameter, mass, k, q] = state.bodies;
+  std::tie(names, length, diameter, mass, k) = std::get<7>(arrays);  // q is that of the scene
   OwnBodies& own = state.own_bodies;
   std::vector<double>* const columns[] = {&own.length, &own.diameter, &own.mass, &own.inertia};
   for (std::size_t n = 0; n < std::size(columns); ++n) {
