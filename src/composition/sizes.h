@@ -21,6 +21,7 @@ struct BodyNumbers {
 };
 
 /// 4 I / (m D^2) of a sphere.
+inline constexpr double q_of_homogeneous = 0.4;
 inline double q_of(double mass, double diameter, double inertia) {
   return 4 * inertia / (mass * (diameter * diameter));
 }

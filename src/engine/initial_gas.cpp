@@ -157,6 +157,13 @@ void let_grow(Gas& gas, const Scene& scene, const GrowthPlan& plan) {
         "{}: expected bodies that move, as it counts in their thermal speed at the start",
         place_of(scene, "driving.growth.rate", fmt::to_string(scene.driving.growth->rate))));
   }
+  // Of a scene that starts from a file, nobody knew it before.
+  if (!(plan.largest > plan.start) && plan.end == Stop::grown) {
+    throw InputError(
+        fmt::format("{}: expected more than the packing fraction at the start",
+                    place_of(scene, "driving.growth.until_packing",
+                             fmt::to_string(scene.driving.growth->until_packing.value_or(1)))));
+  }
   const double mean_diameter = diameters / static_cast<double>(gas.size());
   gas.growth.emplace(plan.start / plan.largest, scene.driving.growth->rate * speed / mean_diameter);
 }

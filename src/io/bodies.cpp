@@ -7,7 +7,6 @@
 
 #include "needlework/composition.h"
 #include "needlework/error.h"
-#include "src/composition/sizes.h"
 
 namespace needlework::io {
 namespace {
@@ -103,7 +102,8 @@ Bodies read_bodies(const Source& source) {
     const auto number = [n](const std::vector<double>& of) { return n < of.size() ? of[n] : 0; };
     const double mass = number(bodies.mass), diameter = number(bodies.diameter);
     const bool is_sphere = number(bodies.length) == 0 && diameter > 0;
-    bodies.q.push_back(is_sphere && std::isfinite(mass) ? q_of(mass, diameter, inertia[n]) : 0);
+    bodies.q.push_back(
+        is_sphere && std::isfinite(mass) ? 4 * inertia[n] / (mass * (diameter * diameter)) : 0);
   }
   if (!has_dataset(source, "/parameters/mass") && !has_own_bodies(source))
     bodies.mass = masses_by_species(source);

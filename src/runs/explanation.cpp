@@ -116,7 +116,8 @@ std::optional<ExplainedMotion> motion_of(const Scene& scene) {
     for (const Scene::WallSide& side : scene.wall_sides()) {
       if (advance_of(scene, side) == 0) continue;
       const double stop = stop_of(moving, side);
-      if (std::isnan(stop)) return ExplainedMotion{.meeting = {}, .time = undefined, .volume = undefined};
+      if (std::isnan(stop))
+        return ExplainedMotion{.meeting = {}, .time = undefined, .volume = undefined};
       out.time = std::max(out.time, stop);
     }
   }

@@ -8,8 +8,6 @@
 namespace needlework {
 namespace {
 
-constexpr double q_of_homogeneous = 0.4;
-
 // Whether it meets any sphere, itself among them, that is not smooth to it.
 bool is_rough_sphere(const Composition& composition, std::size_t n) {
   for (std::size_t other = 0; other < composition.size(); ++other) {

@@ -262,8 +262,10 @@ bool says_inertia(const Scene& scene, std::size_t n) {
 
 // The species as the scene has them, before means are taken.
 std::vector<Species> species_to_draw(const Scene& scene, const OwnBodies& own) {
-  std::vector<Species> out = scene.species.empty() ? scene.composition().species() : scene.species;
+  const Composition composition = scene.composition();
+  std::vector<Species> out = scene.species.empty() ? composition.species() : scene.species;
   for (std::size_t n = 0; n < out.size(); ++n) {
+    out[n] = as_drawn(out[n], composition[n]);
     const bool are_shaped = !own.diameter.empty() && own.inertia.empty();
     if (are_shaped && !says_inertia(scene, n)) out[n].drawn.homogeneous = true;
   }
@@ -341,6 +343,13 @@ std::vector<BodyNumbers> own_bodies_of(const Composition& composition, const Sta
   return out;
 }
 
+Species as_drawn(const Species& given, const Species& made) {
+  Species out = given;
+  const bool is_rough_sphere = made.turns() && !made.has_axis();
+  out.q = !is_rough_sphere ? 0 : given.q > 0 ? given.q : q_of_homogeneous;
+  return out;
+}
+
 Species completed(const Species& species, std::uint64_t seed, std::uint64_t first) {
   if (species.sizes || species.drawn == DrawnSizes{}) return species;
   const bool is_wrong = std::ranges::any_of(drawn_quantities, [&](const DrawnQuantity& each) {
@@ -393,7 +402,8 @@ std::vector<BodyNumbers> drawn_bodies(const Scene& scene) {
   const Composition composition = scene.composition();
   if (!composition.has_own_sizes()) return out;
   out.reserve(composition.count());
-  for (const Species& species : scene.species) {
+  for (std::size_t its = 0; its < scene.species.size(); ++its) {
+    const Species species = as_drawn(scene.species[its], composition[its]);
     const BodyMaker maker(species, scene.needles.seed);
     for (std::uint64_t n = 0; n < species.count; ++n) {
       StopRequest::check_in_turn(n);
@@ -424,6 +434,15 @@ OwnBodies columns_of(const std::vector<BodyNumbers>& bodies) {
     out.inertia.push_back(body.inertia);
   }
   return out;
+}
+
+void add_inertia_of_spheres(const Scene& scene, State& state) {
+  std::vector<double>& inertia = state.own_bodies.inertia;
+  if (std::ranges::count(inertia, 0) == 0) return;
+  const Composition composition = scene.composition();
+  const std::vector<BodyNumbers> bodies = own_bodies_of(composition, state);
+  for (std::size_t row = 0; row < bodies.size(); ++row)
+    if (inertia[row] == 0) inertia[row] = bodies[row].inertia;
 }
 
 void adopt_own_bodies(Scene& scene, const State& state) {

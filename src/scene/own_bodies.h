@@ -86,6 +86,10 @@ inline constexpr const char* expected_inertia_of_sphere =
     "one with which q = 4 I / (m D^2) of a sphere is from 1e-9 to 2/3, of which all mass is at its "
     "surface";
 
+/// A species of a scene for drawing its bodies, which are rough where those made of it are: rough
+/// spheres then have the q that they have where nothing else says their moments of inertia.
+Species as_drawn(const Species& given, const Species& made);
+
 /// A species of a scene with all that follows from how it is drawn: numbers where its bodies are
 /// alike, `sizes` and means where each has its own. `first` is the id of the first of them. Does
 /// nothing where a distribution is wrong, and where `sizes` are known.
@@ -107,6 +111,9 @@ std::vector<BodyNumbers> drawn_bodies(const Scene& scene);
 /// The same as columns of a state.
 OwnBodies columns_of(const std::vector<BodyNumbers>& bodies);
 
+/// Gives rough spheres of a state a moment of inertia that were smooth in it. To be called before
+/// adopt_own_bodies().
+void add_inertia_of_spheres(const Scene& scene, State& state);
 /// Makes the species of a scene those of the bodies of a state that have numbers of their own;
 /// otherwise changes nothing. Throws as own_bodies_of().
 void adopt_own_bodies(Scene& scene, const State& state);

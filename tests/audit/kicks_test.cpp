@@ -45,6 +45,21 @@ TEST(AuditOfKicks, FindsNothingWrongWithTheEngine_long) {
   }
 }
 
+TEST(AuditOfKicks, FindsNothingWrongWithRoughSpheres) {
+  Scene scene = kicked(0.2);
+  scene.needles.count = 0;
+  scene.species = {{.name = "rough", .count = 40, .length = 0, .t_rot = 3, .diameter = 0.7},
+                   {.name = "smooth", .count = 20, .length = 0, .diameter = 0.5},
+                   {.name = "rods", .count = 20, .diameter = 0.2}};
+  scene.pairs = {{.between = {"rough", "rough"}, .epsilon = {}, .beta = 0.4}};
+  scene.driving.andersen = {.rate = 0.5, .temperature = 2};
+  scene.walls = {wall("z", "low", 0.9), {.axis = "z", .side = "high", .temperature = 1.5}};
+  const Findings findings = audited(scene, 2.0 / audit_share);
+  expect_clean(findings, name_of(scene));
+  EXPECT_EQ(findings.kicks, static_cast<std::uint64_t>(2.0 / audit_share / 0.2));
+  EXPECT_GT(findings.contacts, 30u / audit_share);
+}
+
 // Of points next to the circle, whose logarithm is that of a number which rounding has moved by
 // more than its own digits: 4e-7 and 3e-9 inside it.
 TEST(AuditOfKicks, KnowsHowFarRoundingMovesNumbersNextToTheCircle) {

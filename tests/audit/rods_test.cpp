@@ -26,6 +26,34 @@ using audit::Kind;
 
 constexpr int fewer = test::by_build(1, 10);
 
+Scene rough_spheres(double beta) {
+  Scene scene = test::inelastic(rods_of(100, 0, 0.3), 0.8);
+  scene.species[0].given_inertia = 0.15;
+  scene.collisions.beta = beta;
+  return scene;
+}
+
+// Of spheres that are less rough, of another moment of inertia, or smooth within the contact time.
+TEST(AuditOfRods, ReportsAnotherRoughness) {
+  const auto wrong_rules = [](const Composition& composition) {
+    RecordedRun run(rough_spheres(0.3), until_collisions(5.0 / fewer));
+    run.setup.composition = composition;
+    const Findings findings = run.audited();
+    EXPECT_GT(findings.collisions, 50u / fewer);
+    return static_cast<double>(findings.count(Kind::wrong_rule)) /
+           static_cast<double>(findings.collisions);
+  };
+  Composition composition = rough_spheres(0.3).composition();
+  EXPECT_EQ(wrong_rules(composition), 0);
+  composition.set_restitution(0, 0, {0.8, 0.3 + 1e-9});
+  EXPECT_GT(wrong_rules(composition), 0.9);
+  composition = rough_spheres(0.3).composition();
+  Species body = composition[0];
+  body.q *= 1 + 1e-9;
+  composition.set_species(0, body);
+  EXPECT_GT(wrong_rules(composition), 0.9);
+}
+
 TEST(AuditOfRods, FindsNothingWrongWithTheEngine) {
   std::vector<Scene> scenes = {rods_of(150, 5, 0.3), rods_of(60, 5, 0.02), rods_of(100, 0, 0.3),
                                rods_and_spheres(30, 9), rods_of(60, 100, 4e-4)};
@@ -33,6 +61,9 @@ TEST(AuditOfRods, FindsNothingWrongWithTheEngine) {
   Scene& mixture = scenes.emplace_back(rods_and_spheres(30, 9));
   mixture.collisions.tc.reset();
   mixture.collisions.tc_relative = 1e-2;
+  scenes.emplace_back(rough_spheres(0.3));
+  Scene& rough_mixture = scenes.emplace_back(rods_and_spheres(30, 9));
+  rough_mixture.pairs = {{.between = {"spheres", "spheres"}, .epsilon = 0.8, .beta = -0.3}};
   Scene& walled = scenes.emplace_back(rods_of(60, 2, 0.05));
   walled.walls = {{.axis = "z", .side = "both", .epsilon = 0.9}};
   walled.forces.gravity = {0, 0, -1};

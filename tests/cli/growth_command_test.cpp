@@ -80,11 +80,11 @@ TEST_F(GrowthCommand, GoesOnBitForBit) {
 TEST_F(GrowthCommand, ExportsPresentSizes) {
   ASSERT_EQ(run("run grow.toml --quiet").exit_code, 0);
   for (const std::string name : {"a.xyz", "a.dump", "a.xml"}) {
-    const Outcome exported = run("export g.h5 " + name);
+    const Outcome exported = run("export g.h5 " + name + " --frame last");
     ASSERT_EQ(exported.exit_code, 0) << name << exported.err;
-    const Outcome imported = run("import " + name + " --out " + name + ".h5");
+    const Outcome imported = run("import " + name + " --out " + name + ".folder");
     ASSERT_EQ(imported.exit_code, 0) << name << imported.err;
-    const State state = io::FrameFile(path(name + ".h5")).read(0);
+    const State state = io::FrameFile(path(name + ".folder/state.h5")).read(0);
     ASSERT_EQ(state.size(), 80u);
     for (std::size_t i = 0; i < state.size(); ++i) {
       const double of_species = state.bodies.diameter[state.species.empty() ? 0 : state.species[i]];

@@ -87,6 +87,15 @@ diameter.aspect = 5
 """
 
 
+GROWING = """
+needles = { count = 20, box = 4, diameter = 0.2 }
+until.time = 0.5
+driving.growth.rate = 0.1
+output.observables = ["contact_network"]
+"""
+OF_GROWTH = ("/energy_budget/growth", "/energy_budget/cooling")
+
+
 SHEARED = """
 needles = { count = 60, box = 5 }
 until.time = 0.5
@@ -275,7 +284,7 @@ def main(program, source):
         problems += problems_of_examples(observables, "observables.md", folder)
         for name, scene in {"grid": SWEEP, "mixture": MIXTURE, "walled": WALLED, "rods": RODS,
                             "sliding": SLIDING, "channel": CHANNEL, "sheared": SHEARED,
-                            "piston": PISTON,
+                            "piston": PISTON, "growing": GROWING,
                             "differing": DIFFERING}.items():
             with open(os.path.join(folder, f"{name}.toml"), "w", encoding="utf-8") as file:
                 file.write(scene)
@@ -286,12 +295,15 @@ def main(program, source):
         runs = rows_of(document, "Files of runs")
         walls, of_gravity, of_pistons, at_rest = [], [], [], []
         of_flow = rows_of(document, "Files of sheared gases")
+        growing = rows_of(document, "Files of bodies that grow")
         for row in rows_of(document, "Files with walls"):
-            (of_flow if row.paths[0].endswith(OF_FLOW) else
+            (growing if row.paths[0].endswith(OF_GROWTH) else
+             of_flow if row.paths[0].endswith(OF_FLOW) else
              of_gravity if row.paths[0].endswith("/gravity") else
              of_pistons if row.paths[0].startswith("/particles/") else walls).append(row)
         for row in rows_of(observables, "Datasets"):
-            (of_flow if row.paths[0].endswith(OF_FLOW) else at_rest).append(row)
+            (growing if "/contact_network/" in row.paths[0] else
+             of_flow if row.paths[0].endswith(OF_FLOW) else at_rest).append(row)
         rods = rows_of(document, "Files of rods")
         for name, rows, others in [
                 ("run.h5", runs, ()),
@@ -300,6 +312,7 @@ def main(program, source):
                 ("mixture.h5", rows_of(document, "Files of mixtures"), runs),
                 ("rods.h5", rods, runs),
                 ("differing.h5", rows_of(document, "Files of bodies that differ"), rods + runs),
+                ("growing.h5", growing, rods + walls + runs),
                 ("sliding.h5", rows_of(document, "Files with sliding contact"), runs),
                 ("walled.h5", walls + rows_of(observables, "Datasets of axes with walls"), runs),
                 ("channel.h5", of_gravity, walls + runs),

@@ -24,7 +24,7 @@ SHEAR = {"needles.count": 16, "needles.box": 2.5, "until.time": 8}
 OBSTACLES = {"species.moving.count": 30, "species.still.count": 100, "until.time": 5,
              "output.series_every": 0.05}
 ROUGH_SPHERES = {"species.spheres.count": 40, "needles.box": 16.1,
-                 "until.collisions_per_needle": 210}
+                 "until.collisions_per_needle": 160}
 LIQUID = {**FEW, "until.time": 3, "output.series_every": 0.02}
 
 

@@ -132,6 +132,12 @@ TEST_F(GrowthOutput, IsTheStartOfAnotherScene) {
   simulation.advance(loaded.scene.until);
   EXPECT_GE(simulation.collisions(), 800u);
 
+  other.driving.growth = Scene::Growth{.rate = 0.05, .until_packing = 0.2};
+  const LoadedScene late = complete_scene(other);
+  const std::string said =
+      test::message_of<InputError>([&] { Simulation(late.scene, *late.initial); });
+  EXPECT_TRUE(test::contains(said, "expected more than the packing fraction at the start")) << said;
+
   // On from there.
   other.driving.growth = Scene::Growth{.rate = 0.05, .until_packing = 0.4};
   const LoadedScene more = complete_scene(other);

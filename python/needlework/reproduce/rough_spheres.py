@@ -13,7 +13,7 @@ from .runs import FinishedRun, PaperRuns
 
 SETS = ("rough-spheres", "rough-spheres-smooth")
 
-RELAXED = 200.0
+RELAXED = 150.0
 """Collisions of a sphere after which the ratio of temperatures is constant."""
 
 Q = 2 / 5

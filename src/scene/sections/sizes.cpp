@@ -120,8 +120,9 @@ std::string key_of_quantity(const Species& species, std::string_view quantity) {
 // What would be drawn is known to be a body that a scene may have.
 std::optional<Violation> drawn_body_is_impossible(const Scene& scene) {
   std::uint64_t first = 0;
+  const Composition composition = scene.composition();
   for (std::size_t n = 0; n < scene.species.size(); ++n) {
-    const Species& species = scene.species[n];
+    const Species species = as_drawn(scene.species[n], composition[n]);
     const auto wrong = wrong_body_of(species, scene.needles.seed, first);
     first += species.count;
     if (!wrong) continue;
