@@ -56,7 +56,7 @@ TEST_F(GrowthCommand, GivesSizesPackingAndPressure) {
     if (energy.is_number()) sum += energy.get<double>();
   EXPECT_NEAR(sum, result["energy"].get<double>() - result["energy_initial"].get<double>(), 1e-12);
   EXPECT_GT(result["energy_budget"]["growth"].get<double>(), 0);
-  const std::string text = run("run grow.toml --force --quiet").out;
+  const std::string text = run("run grow.toml --force").out;
   EXPECT_TRUE(contains(text, "grew to its packing fraction"));
   EXPECT_TRUE(contains(text, "growth"));
   EXPECT_TRUE(contains(text, "packing fraction 0.3"));
@@ -64,10 +64,8 @@ TEST_F(GrowthCommand, GivesSizesPackingAndPressure) {
 }
 
 TEST_F(GrowthCommand, ShowsPackingAndPressureMeanwhile) {
-  const Outcome shown =
-      run("run grow.toml --progress-every 0 --set driving.growth.rate=1e-4 --set "
-          "until.collisions_per_needle=4000");
-  EXPECT_TRUE(contains(shown.err, ", packing 0.08"));
+  const Outcome shown = run("run grow.toml --progress-every 0 --set until.time=3");
+  EXPECT_TRUE(contains(shown.err, ", packing 0.09"));
 }
 
 TEST_F(GrowthCommand, GoesOnBitForBit) {

@@ -232,7 +232,7 @@ TEST_F(Report, ShowsWallsWhereTheyAreAndNeedlesBeyondOpenSides) {
       "temperature": null, "motion": {"amplitude": 0.25, "frequency": 2.5, "phase": 0.0}})"));
   EXPECT_EQ(scene["walls"][2]["side"], "high");
   EXPECT_EQ(scene["walls"][2]["temperature"], 3);
-  EXPECT_EQ(scene["driving"], json::parse(R"({"andersen": null,
+  EXPECT_EQ(scene["driving"], json::parse(R"({"andersen": null, "growth": null,
       "kicks": {"every": 0.5, "translational": 2.0, "rotational": 0.0}})"));
   EXPECT_EQ(scene["ratio_of_theory"], nullptr);
 }
