@@ -101,7 +101,7 @@ TEST(AdoptedState, IsNotContradicted) {
 
 TEST(AdoptedState, IsOfBodiesThatTheSceneCanSimulate) {
   EXPECT_TRUE(test::contains(refusal_of_state("collisions.beta = 0", thick_rods),
-                             "-1 for rods of finite width"));
+                             "-1 of pairs with a rod of finite width"));
   EXPECT_TRUE(
       test::contains(refusal_of_state("collisions.sliding = true", thick_rods), "do not slide"));
   // The room is that of its bodies, not that of needles of length 1.
