@@ -130,6 +130,8 @@ GRIDS = {
                                                     "species.still.diameter": 0.04}),
     "obstacles-points": ("obstacles-points", {**OBSTACLES, "needles.box": [5, 4]}),
     "packings": ("packings", {"species.spheres.count": 30, "needles.box": 4, **GROWTH}),
+    "packings-fast": ("packings", {"species.spheres.count": 30, "needles.box": 4, **GROWTH,
+                                   "driving.growth.rate": [0.3]}),
     "packings-slow": ("packings", {"species.spheres.count": 30, "needles.box": 4, **GROWTH,
                                    "driving.growth.rate": [0.05]}),
     "packings-mixture": ("packings-mixture", {"species.small.count": 15, "species.large.count": 15,

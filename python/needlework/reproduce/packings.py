@@ -20,8 +20,8 @@ from .runs import FinishedRun, PaperRuns, Point
 EQUAL, TWO_SIZES, RODS = range(3)
 """The column kind of the data: equal spheres, spheres of two sizes, rods."""
 
-SETS = {"packings": EQUAL, "packings-slow": EQUAL, "packings-mixture": TWO_SIZES,
-        "packings-rods": RODS}
+SETS = {"packings-fast": EQUAL, "packings": EQUAL, "packings-slow": EQUAL,
+        "packings-mixture": TWO_SIZES, "packings-rods": RODS}
 """Sets of runs, and of what they are."""
 
 NAMES = ("equal spheres", "spheres 1 : 1.4", "rods")
