@@ -57,10 +57,12 @@ bare() {
 
 # inside COMMAND: runs it in the root as root, with nothing of the environment outside.
 inside() {
-  local compiler=()
-  if [[ -n ${CCACHE_DIR:-} ]]; then
-    mkdir -p "$root/ccache" "$CCACHE_DIR"
-    compiler=(CCACHE_DIR=/ccache CCACHE_BASEDIR=/needlework CCACHE_MAXSIZE=20G CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  local compiler=() cache=""
+  if [[ -n ${CCACHE_DIR:-} && -x $root/usr/bin/ccache ]]; then
+    cache=$CCACHE_DIR
+    mkdir -p "$root/ccache" "$cache"
+    compiler=(CCACHE_DIR=/ccache CCACHE_BASEDIR=/needlework CCACHE_MAXSIZE=20G
+      CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache)
   fi
   env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 \
     DEBIAN_FRONTEND=noninteractive "${compiler[@]}" \
@@ -68,9 +70,9 @@ inside() {
       mount -t proc proc "$1/proc"
       mount --rbind /dev "$1/dev"
       [[ -z $3 ]] || mount --bind "$3" "$1/ccache"
-      exec chroot "$1" bash -euo pipefail -c "$2"' inside "$root" "$1" "${CCACHE_DIR:-}" \
-    >"$roots/$suite.log" 2>&1 </dev/null || {
-    tail -40 "$roots/$suite.log" >&2
+      exec chroot "$1" bash -euo pipefail -c "$2"' inside "$root" "$1" "$cache" \
+    >"$root.log" 2>&1 </dev/null || {
+    tail -40 "$root.log" >&2
     fail "this command failed: $1"
   }
 }
@@ -87,11 +89,11 @@ files() {
     -o ! -type d -print -o -iname '*needlework*' -print | sort)
 }
 
-remember_files() { files >"$roots/$suite.before"; }
+remember_files() { files >"$root.before"; }
 
 nothing_is_left() {
   local left
-  left=$(comm -13 "$roots/$suite.before" <(files))
+  left=$(comm -13 "$root.before" <(files))
   [[ -z $left ]] || fail "left after uninstalling: $left"
   echo "Nothing is left."
 }
