@@ -153,7 +153,7 @@ part_tests() {
   root=$roots/$suite-build
   inside "apt-get install --yes --no-install-recommends libgtest-dev libeigen3-dev"
   inside "cd /needlework && source cmake/setup.sh && install_packages python && configure_release ON &&
-    cmake --build build/release --target with_cpu_time needlework_program describe_results c_header &&
+    cmake --build build/release --target with_cpu_time c_header needlework_python &&
     ctest --test-dir build/release --output-on-failure --no-tests=error \\
       -R '^(docs.links|layers.one_way|cli.hostile_inputs|compatibility.earlier_files|c.header)\$'"
   inside '! command -v git'
@@ -194,11 +194,16 @@ part_wheel() {
   python=$(sed -n 's/.*-cp3\([0-9]*\)-.*/3.\1/p' <<<"$wheel")
   cp "$wheel" "$root/release/"
   # NumPy is fetched outside, where PyPI can be reached by whatever way there is.
-  python3 -m pip download --quiet --python-version "$python" --only-binary=:all: --no-deps \
-    --dest "$root/release" numpy
-  inside "apt-get install --yes --no-install-recommends python3-venv $(libraries)"
+  local numpy=() venv=()
+  if ! python3 -m pip download --quiet --retries 0 --python-version "$python" --only-binary=:all: \
+    --no-deps --dest "$root/release" numpy 2>/dev/null; then
+    echo "NumPy is that of Debian, as PyPI cannot be reached."
+    numpy=(python3-numpy) venv=(--system-site-packages)
+  fi
+  inside "apt-get install --yes --no-install-recommends python3-venv ${numpy[*]} $(libraries)"
   remember_files
-  inside "python3 -m venv /tmp/env && /tmp/env/bin/pip install --no-index --find-links /release needlework"
+  inside "python3 -m venv ${venv[*]} /tmp/env &&
+    /tmp/env/bin/pip install --no-index --find-links /release needlework"
   python_runs /tmp/env/bin/python3 /tmp/env
   inside "/tmp/env/bin/pip uninstall --yes needlework && ! find /tmp/env | grep -i needlework"
   nothing_is_left
