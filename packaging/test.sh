@@ -153,7 +153,7 @@ part_tests() {
   root=$roots/$suite-build
   inside "apt-get install --yes --no-install-recommends libgtest-dev libeigen3-dev"
   inside "cd /needlework && source cmake/setup.sh && install_packages python && configure_release ON &&
-    cmake --build build/release --target with_cpu_time c_header needlework_python &&
+    cmake --build build/release --target needlework_program needlework_python with_cpu_time c_header &&
     ctest --test-dir build/release --output-on-failure --no-tests=error \\
       -R '^(docs.links|layers.one_way|cli.hostile_inputs|compatibility.earlier_files|c.header)\$'"
   inside '! command -v git'
