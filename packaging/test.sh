@@ -10,7 +10,8 @@
 #   tests    some tests of the archive, built without git; after `source`
 #   build    packages and wheel, which go to dist/SUITE/; after `source`
 #   debian   the packages
-#   wheel    the wheel in a virtual environment with nothing but pip, and NumPy from PyPI
+#   wheel    the wheel in a virtual environment with nothing but pip, and NumPy from PyPI, or that of
+#            Debian where PyPI cannot be reached
 #
 # Each runs the scene of the README, whose trajectory must be that of packaging/first-run.hash, and is
 # uninstalled; then no file may be left that was not there before. Roots are made below
@@ -182,7 +183,8 @@ part_debian() {
   program_runs
   python_runs python3 /usr/lib/python3/dist-packages
   clients_run /usr/share/doc/Needlework
-  inside "apt-get purge --yes needlework 'libneedlework*' python3-needlework && apt-get autoremove --purge --yes"
+  inside "apt-get purge --yes needlework 'libneedlework*' python3-needlework"
+  inside "apt-get autoremove --purge --yes"
   nothing_is_left
 }
 
