@@ -10,7 +10,8 @@
 #   tests    some tests of the archive, built without git; after `source`
 #   build    packages and wheel, which go to dist/SUITE/; after `source`
 #   debian   the packages
-#   wheel    the wheel in a virtual environment with nothing but pip, and NumPy from PyPI
+#   wheel    the wheel in a virtual environment with nothing but pip, and NumPy from PyPI, or that of
+#            Debian where PyPI cannot be reached
 #
 # Each runs the scene of the README, whose trajectory must be that of packaging/first-run.hash, and is
 # uninstalled; then no file may be left that was not there before. Roots are made below
@@ -57,10 +58,12 @@ bare() {
 
 # inside COMMAND: runs it in the root as root, with nothing of the environment outside.
 inside() {
-  local compiler=()
-  if [[ -n ${CCACHE_DIR:-} ]]; then
-    mkdir -p "$root/ccache" "$CCACHE_DIR"
-    compiler=(CCACHE_DIR=/ccache CCACHE_BASEDIR=/needlework CCACHE_MAXSIZE=20G CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  local compiler=() cache=""
+  if [[ -n ${CCACHE_DIR:-} && -x $root/usr/bin/ccache ]]; then
+    cache=$CCACHE_DIR
+    mkdir -p "$root/ccache" "$cache"
+    compiler=(CCACHE_DIR=/ccache CCACHE_BASEDIR=/needlework CCACHE_MAXSIZE=20G
+      CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache)
   fi
   env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 \
     DEBIAN_FRONTEND=noninteractive "${compiler[@]}" \
@@ -68,9 +71,9 @@ inside() {
       mount -t proc proc "$1/proc"
       mount --rbind /dev "$1/dev"
       [[ -z $3 ]] || mount --bind "$3" "$1/ccache"
-      exec chroot "$1" bash -euo pipefail -c "$2"' inside "$root" "$1" "${CCACHE_DIR:-}" \
-    >"$roots/$suite.log" 2>&1 </dev/null || {
-    tail -40 "$roots/$suite.log" >&2
+      exec chroot "$1" bash -euo pipefail -c "$2"' inside "$root" "$1" "$cache" \
+    >"$root.log" 2>&1 </dev/null || {
+    tail -40 "$root.log" >&2
     fail "this command failed: $1"
   }
 }
@@ -87,11 +90,11 @@ files() {
     -o ! -type d -print -o -iname '*needlework*' -print | sort)
 }
 
-remember_files() { files >"$roots/$suite.before"; }
+remember_files() { files >"$root.before"; }
 
 nothing_is_left() {
   local left
-  left=$(comm -13 "$roots/$suite.before" <(files))
+  left=$(comm -13 "$root.before" <(files))
   [[ -z $left ]] || fail "left after uninstalling: $left"
   echo "Nothing is left."
 }
@@ -151,7 +154,7 @@ part_tests() {
   root=$roots/$suite-build
   inside "apt-get install --yes --no-install-recommends libgtest-dev libeigen3-dev"
   inside "cd /needlework && source cmake/setup.sh && install_packages python && configure_release ON &&
-    cmake --build build/release --target with_cpu_time needlework_program describe_results c_header &&
+    cmake --build build/release --target needlework_program needlework_python with_cpu_time c_header &&
     ctest --test-dir build/release --output-on-failure --no-tests=error \\
       -R '^(docs.links|layers.one_way|cli.hostile_inputs|compatibility.earlier_files|c.header)\$'"
   inside '! command -v git'
@@ -180,7 +183,8 @@ part_debian() {
   program_runs
   python_runs python3 /usr/lib/python3/dist-packages
   clients_run /usr/share/doc/Needlework
-  inside "apt-get purge --yes needlework 'libneedlework*' python3-needlework && apt-get autoremove --purge --yes"
+  inside "apt-get purge --yes needlework 'libneedlework*' python3-needlework"
+  inside "apt-get autoremove --purge --yes"
   nothing_is_left
 }
 
@@ -192,11 +196,16 @@ part_wheel() {
   python=$(sed -n 's/.*-cp3\([0-9]*\)-.*/3.\1/p' <<<"$wheel")
   cp "$wheel" "$root/release/"
   # NumPy is fetched outside, where PyPI can be reached by whatever way there is.
-  python3 -m pip download --quiet --python-version "$python" --only-binary=:all: --no-deps \
-    --dest "$root/release" numpy
-  inside "apt-get install --yes --no-install-recommends python3-venv $(libraries)"
+  local numpy=() venv=()
+  if ! python3 -m pip download --quiet --retries 0 --python-version "$python" --only-binary=:all: \
+    --no-deps --dest "$root/release" numpy 2>/dev/null; then
+    echo "NumPy is that of Debian, as PyPI cannot be reached."
+    numpy=(python3-numpy) venv=(--system-site-packages)
+  fi
+  inside "apt-get install --yes --no-install-recommends python3-venv ${numpy[*]} $(libraries)"
   remember_files
-  inside "python3 -m venv /tmp/env && /tmp/env/bin/pip install --no-index --find-links /release needlework"
+  inside "python3 -m venv ${venv[*]} /tmp/env &&
+    /tmp/env/bin/pip install --no-index --find-links /release needlework"
   python_runs /tmp/env/bin/python3 /tmp/env
   inside "/tmp/env/bin/pip uninstall --yes needlework && ! find /tmp/env | grep -i needlework"
   nothing_is_left
