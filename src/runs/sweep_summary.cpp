@@ -154,6 +154,7 @@ void add_budget(const Scene& scene, std::span<const Run> runs, PointSummary& poi
 
 // Sizes, packing and pressure of bodies that grow, and their contacts.
 void add_growth(std::span<const Run> runs, PointSummary& point) {
+  if (runs.empty()) return;  // all have failed
   for (const auto& [name, value] : runs.front().growth) {
     add_result(name, runs, point, [&](const Run& run) -> std::optional<double> {
       const auto found =

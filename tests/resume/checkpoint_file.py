@@ -147,6 +147,11 @@ class Fields:
         def three(name):
             self.several(name, "f64", 3)
 
+        def growth(name):
+            self.f64(f"{name}.rate")
+            for end in ("until_packing", "until_pressure", "cool_every"):
+                self.optional(f"{name}.{end}", self.f64)
+
         def wall(name):
             self.text(f"{name}.axis")
             self.text(f"{name}.side")
@@ -159,6 +164,7 @@ class Fields:
         self.optional("shear", lambda name: self.several(name, "f64", 2))
         self.optional("driving.kicks", three)
         self.optional("driving.andersen", lambda name: self.several(name, "f64", 2))
+        self.optional("driving.growth", growth)
         for name in ("search", "queue", "accuracy"):
             self.text(f"engine.{name}")
         for name in ("isolation", "escalation", "filter"):

@@ -99,6 +99,28 @@ TEST(AdoptedState, IsNotContradicted) {
             "[[species]], among rod, ball");
 }
 
+// A file that does not say whether its bodies have an axis leaves that to the scene.
+TEST(AdoptedState, TurnsAboutNoAxis) {
+  const auto refusal_of = [](const std::string& text, double along, double across) {
+    return test::refusal([&] {
+      Scene scene = parse_scene("initial.file = \"f.h5\"\nuntil.time = 1\n" + text, "s.toml");
+      State state = state_of({});
+      state.orientation.assign(3, {1, 0, 0});
+      state.angular_velocity[1] = {along, 0, across};
+      adopt_state(scene, state);
+    });
+  };
+  EXPECT_EQ(refusal_of("", 3, 4),
+            "s.toml: line 1: initial.file = f.h5: needle 1: angular velocity (3, 0, 4), of which 3 "
+            "is along its director: expected none, within 1e-06 of its length");
+  // As wrong at the ends of the range of numbers.
+  EXPECT_NE(refusal_of("", 3e-320, 4e-320), "");
+  EXPECT_NE(refusal_of("", 3e307, 1e308), "");
+  EXPECT_EQ(refusal_of("", 0, 4), "");
+  EXPECT_EQ(refusal_of("species = [{ name = \"a\", count = 3, length = 0, diameter = 1 }]", 3, 4),
+            "");
+}
+
 TEST(AdoptedState, IsOfBodiesThatTheSceneCanSimulate) {
   EXPECT_TRUE(test::contains(refusal_of_state("collisions.beta = 0", thick_rods),
                              "-1 of pairs with a rod of finite width"));
