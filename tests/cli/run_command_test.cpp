@@ -82,6 +82,10 @@ TEST_F(RunCommand, PrintsWhatItsDocumentDescribes) {
   budget.update(result("channel.toml")["energy_budget"]);  // the thermostat knows no gravity
   write("sheared.toml", "needles = { count = 5, box = 4 }\nuntil.time = 1\nshear.rate = 1\n");
   budget.update(result("sheared.toml")["energy_budget"]);
+  write("growing.toml",
+        "needles = { count = 5, box = 4, diameter = 0.1 }\nuntil.time = 1\n"
+        "driving.growth = { rate = 0.01 }\n");
+  budget.update(result("growing.toml")["energy_budget"]);
   EXPECT_EQ(keys_of(budget), sorted(described["Result with walls or driving"]));
   write("wide.toml", "needles = { count = 5, box = 4, diameter = 0.1 }\nuntil.time = 1\n");
   std::vector<std::string> of_rods = described["Result"];

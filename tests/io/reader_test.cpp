@@ -288,8 +288,6 @@ TEST_F(Reading, WrongNumbersAreNamedWithTheirPlace) {
   EXPECT_EQ(put("orientation", {1.000002, 0, 0, 0, 0.6, 0.8}),
             "/particles/all/orientation/value[2][0] = (1.000002, 0, 0), of length 1.000002: "
             "expected a unit vector, within 1e-06");
-  // Of bodies of which the file does not say whether they have an axis.
-  EXPECT_EQ(put("angular_velocity", {3, 0, 4, 0, 0, 0}), "");
   EXPECT_EQ(put("image", {0, 0, 0.5, 0, 0, 0}),
             "/particles/all/image/value[2][0][2] = 0.5: expected a whole number of 32 bits");
   EXPECT_EQ(put("image", {0, 0, 0, 0, 0, 3e9}),
