@@ -61,7 +61,7 @@ namespace {
 // The first line. Its number is to be changed whenever what is saved changes, here or in any
 // function `transfer`. The version is there because the trajectory may change without that, which
 // patch versions leave as it is.
-constexpr std::string_view mark = "needlework checkpoint 10 of " NEEDLEWORK_VERSION "\n";
+constexpr std::string_view mark = "needlework checkpoint 11 of " NEEDLEWORK_VERSION "\n";
 // What it has in common with those of other patch versions.
 constexpr std::string_view mark_but_patch = mark.substr(0, mark.rfind('.') + 1);
 
