@@ -29,7 +29,7 @@ def checksum(data):
 def mark_of(file):
     """Its first line, which names the version of the program."""
     mark = file[:file.index(b"\n") + 1]
-    assert mark.startswith(b"needlework checkpoint 10 of "), mark
+    assert mark.startswith(b"needlework checkpoint 11 of "), mark
     return mark
 
 
