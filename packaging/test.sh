@@ -184,7 +184,9 @@ part_debian() {
   python_runs python3 /usr/lib/python3/dist-packages
   clients_run /usr/share/doc/Needlework
   inside "apt-get purge --yes needlework 'libneedlework*' python3-needlework"
-  inside "apt-get autoremove --purge --yes"
+  # Also of what it only suggests to other packages, as some do Python.
+  inside "apt-get autoremove --purge --yes -o APT::AutoRemove::RecommendsImportant=false \
+    -o APT::AutoRemove::SuggestsImportant=false"
   nothing_is_left
 }
 
