@@ -289,7 +289,8 @@ DrawnState grown(const Scene& scene) {
                     place_of_packing(scene), share, most_tries));
   }
   Scene growing = elastic(scene, rods.state);
-  Scene::Growth& growth_of_scene = growing.driving.growth.emplace();
+  growing.driving.growth = Scene::Growth{};
+  Scene::Growth& growth_of_scene = *growing.driving.growth;
   growth_of_scene.rate = rate_of_growth;
   growth_of_scene.cool_every = 4;
   growth_of_scene.from = share;

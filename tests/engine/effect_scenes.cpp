@@ -122,7 +122,8 @@ Scene pistons() {
 // Cooled now and then.
 Scene growing(Scene scene, double rate) {
   scene.driving = {};
-  Scene::Growth& growth = scene.driving.growth.emplace();
+  scene.driving.growth = Scene::Growth{};
+  Scene::Growth& growth = *scene.driving.growth;
   growth.rate = rate;
   growth.until_packing = 0.6;
   growth.cool_every = 2;

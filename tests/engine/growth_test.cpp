@@ -25,7 +25,8 @@ Vector sum(const Vector& a, const Vector& b, double factor) {
 double product(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 Scene growing(Scene scene, double rate, double until_packing) {
-  Scene::Growth& growth = scene.driving.growth.emplace();
+  scene.driving.growth = Scene::Growth{};
+  Scene::Growth& growth = *scene.driving.growth;
   growth.rate = rate;
   growth.until_packing = until_packing;
   growth.cool_every = 0;

@@ -17,7 +17,8 @@ namespace needlework::test {
 namespace {
 
 Scene growing(Scene scene, double rate) {
-  scene.driving.growth.emplace().rate = rate;
+  scene.driving.growth = Scene::Growth{};
+  scene.driving.growth->rate = rate;
   return scene;
 }
 
