@@ -157,6 +157,10 @@ Scene elastic(const Scene& scene, const State& state) {
     if (gaps[side.axis].is_open()) out.walls[side.entry].side = "both";
   }
   for (Species& each : out.species) each.t_tr = each.t_rot = 1;
+  // Which parts find the trajectory changes no bit of it, and those of the scene may be slow.
+  out.engine.search = out.engine.queue = "auto";
+  out.engine.cell_side.reset();
+  out.engine.capsule_radius.reset();
   out.needles.count = state.size();
   return out;
 }
