@@ -66,7 +66,7 @@ foreach(example smallest own_arrays)
 endforeach()
 execute_process(COMMAND ${OBJDUMP} -p ${WORK}/c_smallest/consumer OUTPUT_VARIABLE needed
                 COMMAND_ERROR_IS_FATAL ANY)
-if(NOT needed MATCHES "NEEDED +libneedlework\\.so\\.4\n" OR needed MATCHES "hdf5|libfmt")
+if(NOT needed MATCHES "NEEDED +libneedlework\\.so\\.5\n" OR needed MATCHES "hdf5|libfmt")
   message(FATAL_ERROR "expected a program that needs libneedlework.so.5:\n${needed}")
 endif()
 
