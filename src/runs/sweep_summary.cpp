@@ -155,7 +155,8 @@ void add_budget(const Scene& scene, std::span<const Run> runs, PointSummary& poi
 // Sizes, packing and pressure of bodies that grow, and their contacts.
 void add_growth(std::span<const Run> runs, PointSummary& point) {
   if (runs.empty()) return;  // all have failed
-  for (const auto& [name, value] : runs.front().growth) {
+  for (const auto& result : runs.front().growth) {
+    const std::string& name = result.first;
     add_result(name, runs, point, [&](const Run& run) -> std::optional<double> {
       const auto found =
           std::ranges::find(run.growth, name, &std::pair<std::string, double>::first);
