@@ -49,7 +49,7 @@ StopConditions::StopConditions(const Run& run, const Scene::Until& until)
 }
 
 std::optional<Stop> StopConditions::reached_without_events(Run& run) const {
-  if (time < run.now) return at_time();
+  if (time < run.now) return why;
   if (time == Time::never()) {
     if (run.collisionless()) return Stop::nothing_can_happen;
     // Sources may have events for ever, but no collision.
@@ -60,7 +60,7 @@ std::optional<Stop> StopConditions::reached_without_events(Run& run) const {
   if (!run.nothing_can_happen()) return std::nullopt;
   require_images(run.gas, time);
   run.now = time;
-  return at_time();
+  return why;
 }
 
 std::optional<Stop> StopConditions::called_off(Run& run) const {

@@ -28,11 +28,9 @@ struct StopConditions {
   /// Whether the caller has interrupted the run, the limit on wall time has passed, or no limit on
   /// time will end a gas without collisions.
   std::optional<Stop> called_off(Run& run) const;
-  /// Why a run that has come to the limit of time has ended.
-  Stop at_time() const { return why; }
 
   Time time;              ///< Time::never(): no limit
-  Stop why = Stop::time;  ///< the run ends then
+  Stop why = Stop::time;  ///< a run has ended that has come there
   double collisions;
   double energy;
   std::chrono::steady_clock::time_point wall;

@@ -294,7 +294,7 @@ struct Simulation::Implementation {
         if (const auto called_off = limits.called_off(run)) return *called_off;
         continue;
       }
-      if (stop == Stop::time) return limits.at_time();
+      if (stop == Stop::time) return limits.why;
       if (stop) return *stop;
       if (!sizing->look(run.tally.collisions, run.gas, run.now)) continue;
       loop.reset();  // frees its memory before the next loop allocates

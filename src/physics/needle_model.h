@@ -111,8 +111,8 @@ class NeedleModel {
       CollidingPair both{v_first, first.w, v_second, second.w, body(i), body(j), contact, side};
       if constexpr (Law::has_distance) {
         if (gas_.growth) {
-          both.growth = closing_by_growth(i, j, contact, now);
           both.scale = gas_.growth->scale_at(gas_.clock, now);
+          both.growth = closing_by_growth(i, j, contact, both.scale);
         }
       }
       const auto in_frames_of_records = [&](Impact impact) {
@@ -146,11 +146,10 @@ class NeedleModel {
     pair.growth = gas_.growth->relative_rate(scale);
   }
   /// How fast growth brings the surfaces of two bodies in contact together: the relative rate times
-  /// the distance of the centres along the normal. [L / time]
+  /// the distance of the centres along the normal, at this scale. [L / time]
   [[gnu::noinline]] double closing_by_growth(Needle i, Needle j,
                                              const kernels::ContactGeometry& contact,
-                                             Time now) const {
-    const double scale = gas_.growth->scale_at(gas_.clock, now);
+                                             double scale) const {
     const double distance = (gas_.radius(i) + gas_.radius(j)) * scale;
     const Vec3d arms = contact.u_first * contact.arm_first - contact.u_second * contact.arm_second;
     return gas_.growth->relative_rate(scale) * (distance - dot(contact.normal, arms));

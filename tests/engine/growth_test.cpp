@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "needlework/error.h"
@@ -239,6 +240,25 @@ TEST(Growth, EndsWhereItIsToldOrHasNoRoom) {
   EXPECT_GE(pressed.growth()->pressure, 30);
   EXPECT_LT(pressed.growth()->pressure, 45);
   EXPECT_EQ(pressed.advance(until_time(1e3)), Stop::pressure);
+}
+
+// Searches know the largest sizes: what bodies would do beyond is not looked for, by which they
+// would seem to have overlapped unseen.
+TEST(Growth, IsSearchedToItsEndAndNotBeyond) {
+  Scene scene = scene_of(0, 6.44, 224944);
+  scene.needles.box = {6.44, 7.3425, 7.7218};
+  scene.species = {{.name = "rods", .count = 40, .length = 1.5, .k = 6, .diameter = 0.5}};
+  scene.species[0].drawn.length =
+      Distribution{.shape = Distribution::Shape::uniform, .mean = 1.5, .width = 0.3};
+  scene = growing(scene, 0.2, 0.6);
+  std::string first;
+  for (const char* search : {"all-pairs", "linked-lists", "linked-cells", "capsules"}) {
+    Simulation run(searched_by(scene, search));
+    EXPECT_EQ(run.advance(until_time(1e3)), Stop::no_room) << search;
+    if (first.empty()) first = run.trajectory_hash();
+    EXPECT_EQ(run.trajectory_hash(), first) << search;
+    EXPECT_GT(run.collisions(), 5u);
+  }
 }
 
 TEST(Growth, EndsWhereBodiesJam) {
