@@ -64,7 +64,7 @@ typedef struct needlework_error {
 
 /* ---- Version and capabilities ---------------------------------------------------------------- */
 
-/* The version, such as "0.1.0". [any] */
+/* The version, such as "1.0.0". [any] */
 NEEDLEWORK_API const char* needlework_version(void);
 
 /* 1 if this library on this machine has what is named, else 0: "isa/scalar", "isa/sse4",

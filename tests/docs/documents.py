@@ -4,6 +4,7 @@ the container is built as the front page says, which stays short, as do all page
 import csv
 import re
 import unittest
+from datetime import date
 from functools import lru_cache
 from pathlib import Path
 from urllib.parse import unquote
@@ -156,6 +157,17 @@ class Documents(unittest.TestCase):
         command = re.search(r"^RUN (\S+)", (ROOT / "Containerfile").read_text(), re.M)[1]
         start = re.search(r"^## Start\n(.*?)^## ", (ROOT / "README.md").read_text(), re.M | re.S)[1]
         self.assertIn(f"\n    {command}\n", start)
+
+    def test_citation_and_changelog_have_the_version(self):
+        version = re.search(r"^project\(Needlework VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(),
+                            re.M)[1]
+        citation = (ROOT / "CITATION.cff").read_text()
+        self.assertEqual(re.search(r"^version: (.*)$", citation, re.M)[1], version)
+        changelog = (ROOT / "docs/changelog.md").read_text()
+        heading, day = re.search(r"^## (\S+), (.*)$", changelog, re.M).groups()
+        self.assertEqual(heading, version)
+        released = re.search(r"^date-released: (.*)$", citation, re.M)[1]
+        self.assertEqual(f"{date.fromisoformat(released):%-d %B %Y}", day)
 
     def test_all_pages_together_are_short(self):
         words = sum(len(path.read_text().split()) for path in (ROOT / "docs").rglob("*.md"))
