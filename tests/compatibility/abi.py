@@ -45,7 +45,8 @@ def compile_stubs(header, soname, folder):
         f"{function} {{ __builtin_trap(); }}\n" for function in functions))
     library = folder / soname
     done = run("cc", "-std=c11", "-g", "-O0", "-fPIC", "-shared", "-w", f"-Wl,-soname,{soname}",
-               f"-Wl,--version-script={ROOT / 'src/c/needlework.map'}", source, "-o", library)
+               f"-ffile-prefix-map={folder}=.", f"-Wl,--version-script={ROOT / 'src/c/needlework.map'}",
+               source, "-o", library)
     assert done.returncode == 0, done.stderr
     return library
 
