@@ -5,8 +5,9 @@
     names.py DESCRIBE --write    writes the list
 
 DESCRIBE is build/release/describe_results. Keys of scenes and of results come from the program, other
-names from the pages that tests compare with it, those of Python from the package, which PYTHONPATH
-names; without it, its names are left as they are.
+names and defaults of keys from the pages that tests compare with it, declarations of C++ from the public
+headers as Universal Ctags reads them, those of Python from the package, which PYTHONPATH names. Without
+one of the last two, its names are left as they are.
 """
 
 import dataclasses
@@ -14,6 +15,7 @@ import inspect
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -37,6 +39,11 @@ def of_scenes(lists):
     for key, expected in lists["scene_keys"].items():
         yield key
         yield from (f"{key} = \"{choice}\"" for choice in re.findall(r'"([a-z][\w-]*)"', expected))
+    for heading, names, cells in rows("scenes.md"):
+        section = re.match(r"\[+(\w+)\]", heading)
+        default = re.search(r"\((.*)\) *$", re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", cells[3]))
+        if default:
+            yield f"{section[1] + '.' if section else ''}{names[0]} without a value: {default[1]}"
 
 
 def of_commands(_lists):
@@ -92,6 +99,22 @@ def of_c(_lists):
                 re.findall(r"^#define (NEEDLEWORK_[A-Z_]+)[ \t]+(.+)$", code, re.M) if name != "NEEDLEWORK_API")
 
 
+def of_cxx(_lists):
+    """What is not private, with types and parameters."""
+    ctags = shutil.which("ctags-universal")
+    if not ctags:
+        raise ImportError("Universal Ctags are not installed")
+    headers = sorted((ROOT / "include/needlework").glob("*.h"))
+    tags = subprocess.run([ctags, "--output-format=json", "--languages=C++", "--kinds-C++=+p-dhn",
+                           "--fields=+aStsZ", "-f", "-", *headers], stdout=subprocess.PIPE, check=True)
+    for tag in map(json.loads, tags.stdout.splitlines()):
+        scope, name = tag.get("scope", ""), tag["name"]
+        if tag.get("access") in ("private", "protected") or "__anon" in scope + name:
+            continue
+        kind = tag.get("typeref", "").removeprefix("typename:")
+        yield f"{scope}::{name}{tag.get('signature', '')}{f': {kind}' if kind else ''}"
+
+
 def parameters(function):
     try:
         signature = inspect.signature(function)
@@ -144,7 +167,7 @@ def of_python(_lists):
 
 
 SECTIONS = {"scenes": of_scenes, "commands": of_commands, "json": of_json, "pipe": of_pipe,
-            "files": of_files, "c": of_c, "python": of_python}
+            "files": of_files, "c": of_c, "c++": of_cxx, "python": of_python}
 
 
 def read():
