@@ -13,7 +13,7 @@ using Usage = ProgramTest;
 TEST_F(Usage, HelpAndVersionExitWith0) {
   EXPECT_EQ(run("--help").exit_code, 0);
   EXPECT_EQ(run("run --help").exit_code, 0);
-  EXPECT_TRUE(contains(output_of("--version"), {"needlework 0.", "compiler", "ISA       scalar",
+  EXPECT_TRUE(contains(output_of("--version"), {"needlework 1.", "compiler", "ISA       scalar",
                                                 "HDF5      1.", "MPI       ", "Python    "}));
 }
 
