@@ -3,7 +3,8 @@
 #
 #   packaging/test.sh bookworm|trixie [PART...]
 #
-# As root, with debootstrap. PART is one of these, all in this order without any:
+# As root, with debootstrap. PART is one of these; without any, all but the last in this order, of a new
+# archive of the last commit:
 #
 #   source   the archive without git and npm: quickstart.sh, as the container does it, cmake --install,
 #            the C++ program of the README by find_package, one in C by pkg-config
@@ -12,6 +13,7 @@
 #   debian   the packages
 #   wheel    the wheel in a virtual environment with nothing but pip, and NumPy from PyPI, or that of
 #            Debian where PyPI cannot be reached
+#   suite    all of ./test.sh in the archive, which takes an hour; after `tests`
 #
 # Each runs the scene of the README, whose trajectory must be that of packaging/first-run.hash, and is
 # uninstalled; then no file may be left that was not there before. Roots are made below
@@ -22,7 +24,6 @@ project=$PWD
 suite=${1:?expected a suite of Debian: bookworm or trixie}
 shift
 parts=("$@")
-((${#parts[@]})) || parts=(source tests build debian wheel)
 roots=${NEEDLEWORK_ROOTS:-/var/tmp/needlework-roots}
 dist=$project/dist/$suite
 mkdir -p "$roots" "$dist"
@@ -47,14 +48,18 @@ bare() {
   fi
   cp /etc/resolv.conf "$root/etc/"
   mkdir "$root/release"
-  cp "$project"/dist/needlework-*.tar.gz "$project/packaging/first-run.hash" "$root/release/"
+  cp "$archive" "$root/release/"
+  from_archive packaging/first-run.hash >"$root/release/first-run.hash"
   # The scene and the programs of the README.
   local language
   for language in toml cpp cmake; do
-    sed -n "/^\`\`\`$language\$/,/^\`\`\`\$/{//!p}" "$project/README.md" >"$root/release/readme.$language"
+    from_archive README.md | sed -n "/^\`\`\`$language\$/,/^\`\`\`\$/{//!p}" \
+      >"$root/release/readme.$language"
   done
   inside 'apt-get update'
 }
+
+from_archive() { tar -xOf "$archive" --wildcards "needlework-*/$1"; }
 
 # inside COMMAND: runs it in the root as root, with nothing of the environment outside.
 inside() {
@@ -82,11 +87,12 @@ install_ccache() {
   [[ -z ${CCACHE_DIR:-} ]] || inside 'apt-get install --yes --no-install-recommends ccache'
 }
 
-# Which files there are, without those of apt and dpkg themselves, caches and logs.
+# Which files there are, without those of apt and dpkg themselves, caches, logs, and the one that netbase,
+# on which Python depends, leaves.
 files() {
   (cd "$root" && find . -xdev \( -path ./proc -o -path ./dev -o -path ./ccache -o -path ./release \
     -o -path ./tmp -o -path ./root -o -path ./var/lib/dpkg -o -path ./var/lib/apt -o -path ./var/cache \
-    -o -path ./var/log -o -path ./needlework -o -path ./etc/ld.so.cache \) -prune \
+    -o -path ./var/log -o -path ./needlework -o -path ./etc/ld.so.cache -o -path ./etc/hosts \) -prune \
     -o ! -type d -print -o -iname '*needlework*' -print | sort)
 }
 
@@ -173,21 +179,34 @@ part_build() {
 part_debian() {
   say "packages of Debian"
   bare debian
-  # What programs are compiled with, and what the packages depend on, is there before.
   inside "apt-get install --yes --no-install-recommends g++ cmake ninja-build pkg-config"
   remember_files
   cp "$dist"/*.deb "$root/release/"
-  inside "apt-get install --yes --no-install-recommends /release/needlework_*.deb"
+  # Each by itself, then all together.
+  install_packages needlework
   program_runs
-  inside "apt-get install --yes --no-install-recommends /release/*.deb"
-  program_runs
-  python_runs python3 /usr/lib/python3/dist-packages
+  remove_packages
+  install_packages libneedlework5 libneedlework-dev
   clients_run /usr/share/doc/Needlework
-  inside "apt-get purge --yes needlework 'libneedlework*' python3-needlework"
-  # Also of what it only suggests to other packages, as some do Python.
-  inside "apt-get autoremove --purge --yes -o APT::AutoRemove::RecommendsImportant=false \
-    -o APT::AutoRemove::SuggestsImportant=false"
+  remove_packages
+  install_packages python3-needlework
+  python_runs python3 /usr/lib/python3/dist-packages
+  remove_packages
+  install_packages needlework libneedlework5 libneedlework-dev python3-needlework
+  program_runs
+  remove_packages
   nothing_is_left
+}
+
+install_packages() {
+  inside "apt-get install --yes --no-install-recommends $(printf '/release/%s_*.deb ' "$@")"
+}
+
+# With what they depend on, also what that only suggests to other packages, as some do Python.
+remove_packages() {
+  inside "apt-get purge --yes '~i^(python3-|lib)?needlework'
+    apt-get autoremove --purge --yes -o APT::AutoRemove::RecommendsImportant=false \
+      -o APT::AutoRemove::SuggestsImportant=false"
 }
 
 part_wheel() {
@@ -205,22 +224,39 @@ part_wheel() {
     numpy=(python3-numpy) venv=(--system-site-packages)
   fi
   inside "apt-get install --yes --no-install-recommends python3-venv ${numpy[*]} $(libraries)"
+  inside "python3 -m venv ${venv[*]} /opt/env"
+  [[ -n ${numpy[*]} ]] || inside "/opt/env/bin/pip install --no-index --find-links /release numpy"
   remember_files
-  inside "python3 -m venv ${venv[*]} /tmp/env &&
-    /tmp/env/bin/pip install --no-index --find-links /release needlework"
-  python_runs /tmp/env/bin/python3 /tmp/env
-  inside "/tmp/env/bin/pip uninstall --yes needlework && ! find /tmp/env | grep -i needlework"
+  inside "/opt/env/bin/pip install --no-index --find-links /release needlework"
+  python_runs /opt/env/bin/python3 /opt/env
+  inside "/opt/env/bin/pip uninstall --yes needlework"
   nothing_is_left
 }
 
-# The libraries of the system that the module needs, as the package of Debian has found them.
-libraries() {
-  dpkg-deb --field "$(echo "$dist"/python3-needlework_*.deb)" Depends | tr ',' '\n' |
-    sed -n 's/^ *\(lib[^ ]*\).*/\1/p' | tr '\n' ' '
+part_suite() {
+  say "all tests of the archive"
+  root=$roots/$suite-build
+  inside "cd /needlework && ./test.sh"
+  tail -5 "$root.log"
 }
 
-archives=(dist/needlework-*.tar.gz)
-[[ -f ${archives[0]} ]] || packaging/build.sh source
+# The libraries of the system that the module needs: for Debian 12 those that packaging/README.md names,
+# for others those that the package of Debian has found.
+libraries() {
+  if [[ $suite == bookworm ]]; then
+    from_archive packaging/README.md | sed -n 's/.*`sudo apt-get install \(libhdf5[^`]*\)`.*/\1/p'
+  else
+    dpkg-deb --field "$(echo "$dist"/python3-needlework_*.deb)" Depends | tr ',' '\n' |
+      sed -n 's/^ *\(lib[^ ]*\).*/\1/p' | tr '\n' ' '
+  fi
+}
+
+version=$(sed -n 's/^project(Needlework VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+archive=$project/dist/needlework-$version.tar.gz
+if ((${#parts[@]} == 0)); then
+  packaging/build.sh source
+  parts=(source tests build debian wheel)
+fi
 for part in "${parts[@]}"; do
   "part_$part"
 done

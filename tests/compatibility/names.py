@@ -2,15 +2,17 @@
 """The names that other programs use are those of names.txt.
 
     names.py DESCRIBE            exit code 1, and the names that have come or gone, if they are others
-    names.py DESCRIBE --write    writes the list
+    names.py DESCRIBE --write    adds those that have come; none may have gone
+    names.py DESCRIBE --write --gone    the list is what there is now
 
 DESCRIBE is build/release/describe_results. Keys of scenes and of results come from the program, other
-names and defaults of keys from the pages that tests compare with it, declarations of C++ from the public
-headers as Universal Ctags reads them, those of Python from the package, which PYTHONPATH names. Without
-one of the last two, its names are left as they are.
+names, with types and defaults, from the documents, declarations of C and C++ from the public headers as
+Universal Ctags reads them, those of Python from the package, which PYTHONPATH names. Exit code 77: one of
+the last two is not there, and its names were not compared.
 """
 
 import dataclasses
+import functools
 import inspect
 import json
 import os
@@ -35,15 +37,27 @@ def rows(page):
             yield heading, re.findall(r"`([^`]+)`", cells[1]), cells
 
 
+def without_links(text):
+    return re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", text).strip()
+
+
 def of_scenes(lists):
     for key, expected in lists["scene_keys"].items():
         yield key
-        yield from (f"{key} = \"{choice}\"" for choice in re.findall(r'"([a-z][\w-]*)"', expected))
+        yield f"{key} takes {expected}"
     for heading, names, cells in rows("scenes.md"):
         section = re.match(r"\[+(\w+)\]", heading)
-        default = re.search(r"\((.*)\) *$", re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", cells[3]))
-        if default:
-            yield f"{section[1] + '.' if section else ''}{names[0]} without a value: {default[1]}"
+        value = without_links(cells[3])
+        default = re.search(r"\(([^()]*)\)$", value)
+        for name in names:
+            key = f"{section[1]}.{name}" if section else name
+            if default and "*" not in name:
+                yield f"{key} without a value: {default[1]}"
+            if "required" in value:
+                yield f"{key} is required"
+    for heading, names, cells in rows("sweeps.md"):
+        if heading == "Grid files":
+            yield f"grid of a sweep: {names[0]} without a value: {cells[4].strip()}"
 
 
 def of_commands(_lists):
@@ -67,52 +81,88 @@ def of_commands(_lists):
 
 
 def of_json(_lists):
-    for heading, names, _ in rows("json.md"):
+    for heading, names, cells in rows("json.md"):
         yield from (f"{heading}: {name}" for name in names)
+        if names == ["stop"]:
+            yield from (f"stop = {word}" for word in re.findall(r"`(\w+)`", without_links(cells[2])))
 
 
 def of_pipe(_lists):
-    for heading, names, cells in rows("serve.md"):
-        if heading != "Requests":
-            continue
+    page = (ROOT / "docs/serve.md").read_text()
+    lines = [json.loads(line.replace(", ...", "").replace("…", "0"))
+             for line in re.findall(r"^    (\{.*\})$", page, re.M)]
+    yield from (f"a line has {name}" for line in lines for name in line)
+    requests = [row for row in rows("serve.md") if row[0] == "Requests"]
+    others = {names[0] for _, names, _ in requests}
+    for _, names, cells in requests:
         for part, cell in zip(("takes", "answers"), cells[2:4]):
             for name in re.findall(r"`(\w+)`", re.sub(r"\([^()]*\)", "", cell)):
-                yield f"{names[0]} {part} {name}"
-    text = (ROOT / "docs/serve.md").read_text()
-    fields = re.search(r"`fields` chooses some of (.*?) \[collisions in Python\]", text, re.S)[1]
+                if name not in others:
+                    yield f"{names[0]} {part} {name}"
+    fields = re.search(r"`fields` chooses some of (.*?) \[collisions in Python\]", page, re.S)[1]
     yield from (f"collisions: {name}" for name in re.findall(r"`(\w+)`", fields))
 
 
 def of_files(lists):
-    yield from (f"/series/{name}" for name in lists["series"])
-    for page in ("file-format.md", "observables.md"):
-        for heading, names, _ in rows(page):
-            yield from (f"{heading}: {name}" if not name.startswith("/") else name
+    yield from (f"/series/{name}: {field['type']}{', ' if field['unit'] else ''}{field['unit']}"
+                for name, field in lists["series"].items())
+    for page in ("file-format.md", "observables.md", "sweeps.md"):
+        for heading, names, cells in rows(page):
+            kind = without_links(cells[3]).replace("`", "") if len(cells) == 5 else ""
+            yield from (f"{'' if name.startswith('/') else f'{heading}: '}{name}{': ' if kind else ''}{kind}"
                         for name in names if "/" in name)
 
 
+def types_of(signature):
+    """Of parameters, whose names may change, with what follows them."""
+    def type_of(parameter):
+        what, given, _ = parameter.partition("=")
+        named = re.fullmatch(r"(.*[ &*>])\w+((?:\[.*)?)", what.strip())
+        return f"{(named[1].strip() + named[2]) if named else what.strip()}{' = ...' if given else ''}"
+    whole = re.fullmatch(r"\((.*)\)([^)]*)", signature)
+    parts, depth = [""], 0
+    for letter in whole[1]:
+        depth += (letter in "<({[") - (letter in ">)}]")
+        if letter == "," and depth == 0:
+            parts.append("")
+        else:
+            parts[-1] += letter
+    return f"({', '.join(map(type_of, parts))}){whole[2]}"
+
+
+def declarations(language, kinds, headers):
+    """What is not private, with types."""
+    ctags = shutil.which("ctags-universal")
+    if not ctags:
+        raise ImportError("Universal Ctags are not installed")
+    tags = subprocess.run([ctags, "--output-format=json", f"--languages={language}",
+                           f"--langmap={language}:.h", f"--kinds-{language}={kinds}", "--fields=+aiStsZ",
+                           "-f", "-", *headers], stdout=subprocess.PIPE, check=True)
+    for tag in map(json.loads, tags.stdout.splitlines()):
+        scope, name = tag.get("scope", ""), tag["name"]
+        if tag.get("access") in ("private", "protected") or "__anon" in name:
+            continue
+        scope = re.sub(r"^__anon\w+$", "", scope)
+        kind = re.sub(r"__anon\w+", "...", tag.get("typeref", "").removeprefix("typename:"))
+        bases = f" of {tag['inherits']}" if tag.get("inherits") else ""
+        what = f"{tag['kind']} " if tag["kind"] in ("class", "struct", "enum", "union") else ""
+        signature = types_of(tag["signature"]) if "signature" in tag else ""
+        yield (f"{what}{scope}{'::' if scope else ''}{name}{signature}{bases}{': ' if kind else ''}{kind}")
+
+
 def of_c(_lists):
-    code = re.sub(r"/\*.*?\*/", "", (ROOT / "include/needlework.h").read_text(), flags=re.S)
+    header = ROOT / "include/needlework.h"
+    code = re.sub(r"/\*.*?\*/", "", header.read_text(), flags=re.S)
     yield from (f"{name} = {value}" for name, value in
                 re.findall(r"\b(NEEDLEWORK_[A-Z_]+) = (\d+)", code))
     yield from (f"{name} {value}".strip() for name, value in
                 re.findall(r"^#define (NEEDLEWORK_[A-Z_]+)[ \t]+(.+)$", code, re.M) if name != "NEEDLEWORK_API")
+    yield from declarations("C", "+p-deh", [header])
 
 
 def of_cxx(_lists):
-    """What is not private, with types and parameters."""
-    ctags = shutil.which("ctags-universal")
-    if not ctags:
-        raise ImportError("Universal Ctags are not installed")
     headers = sorted((ROOT / "include/needlework").glob("*.h"))
-    tags = subprocess.run([ctags, "--output-format=json", "--languages=C++", "--kinds-C++=+p-dhn",
-                           "--fields=+aStsZ", "-f", "-", *headers], stdout=subprocess.PIPE, check=True)
-    for tag in map(json.loads, tags.stdout.splitlines()):
-        scope, name = tag.get("scope", ""), tag["name"]
-        if tag.get("access") in ("private", "protected") or "__anon" in scope + name:
-            continue
-        kind = tag.get("typeref", "").removeprefix("typename:")
-        yield f"{scope}::{name}{tag.get('signature', '')}{f': {kind}' if kind else ''}"
+    yield from declarations("C++", "+p-dhn", headers)
 
 
 def parameters(function):
@@ -126,7 +176,10 @@ def parameters(function):
 
 
 def members(name, kind):
-    yield f"{name}{parameters(kind) if '__init__' in vars(kind) and not issubclass(kind, Exception) else ''}"
+    if issubclass(kind, Exception):
+        yield f"{name} of {', '.join(base.__name__ for base in kind.__bases__)}"
+    else:
+        yield f"{name}{parameters(kind) if '__init__' in vars(kind) else ''}"
     names = {each for base in kind.__mro__[:-1] if base.__module__.startswith("needlework")
              for each in (*vars(base), *getattr(base, "__annotations__", ()))}
     if dataclasses.is_dataclass(kind):
@@ -137,7 +190,8 @@ def members(name, kind):
         value = inspect.getattr_static(kind, each, None)
         if isinstance(value, (staticmethod, classmethod)):
             value = value.__func__
-        yield f"{name}.{each}{parameters(value) if inspect.isroutine(value) else ''}"
+        is_method = inspect.isroutine(value) and not isinstance(value, functools.cached_property)
+        yield f"{name}.{each}{parameters(value) if is_method else ''}"
 
 
 def of_python(_lists):
@@ -183,32 +237,37 @@ def read():
 def main(describe, *options):
     lists = json.loads(subprocess.run([describe], stdout=subprocess.PIPE, check=True).stdout)
     before, now = read(), {}
+    left_out = False
     for section, names_of in SECTIONS.items():
         try:
             now[section] = sorted(set(names_of(lists)))
         except ImportError as error:
-            print(f"{section}: as before: {error}")
+            print(f"{section}: not compared: {error}")
+            left_out = True
             now[section] = before.get(section, [])
             continue
         assert len(now[section]) > 15, (section, now[section])
-    if "--write" in options:
+    gone, come = differences(before, now), differences(now, before)
+    for what, names in (("gone", gone), ("new", come)):
+        for name in names:
+            print(f"{what}: {name}")
+    if "--write" in options and ("--gone" in options or not gone):
         text = "# Names that other programs use, written by tests/compatibility/write.sh: COMPATIBILITY.md.\n"
         LIST.write_text(text + "".join(
             f"\n[{section}]\n" + "".join(f"{name}\n" for name in names) for section, names in now.items()))
         return 0
-    failed = False
-    for section, names in now.items():
-        gone = sorted(set(before.get(section, ())) - set(names))
-        come = sorted(set(names) - set(before.get(section, ())))
-        for name in gone:
-            print(f"{section}: gone: {name}")
-        for name in come:
-            print(f"{section}: new: {name}")
-        failed = failed or bool(gone or come)
-    if failed:
-        print("New names are to stay: list them by tests/compatibility/write.sh. A name goes only with a "
-              "new major version, after a warning in a minor one (COMPATIBILITY.md).")
-    return 1 if failed else 0
+    if gone or come:
+        print("""New names are to stay: list them by tests/compatibility/write.sh. A name goes only with a new major
+version, after a warning in a minor one (COMPATIBILITY.md); then, and where only the words of a document
+changed, or more is allowed than before: names.py with --write --gone.""")
+        return 1
+    return 77 if left_out else 0
+
+
+def differences(one, other):
+    """What only one has."""
+    return [f"{section}: {name}" for section, names in one.items()
+            for name in sorted(set(names) - set(other.get(section, ())))]
 
 
 if __name__ == "__main__":

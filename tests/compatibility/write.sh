@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Writes the lists of names and the description of the C interface again, of a build folder:
+# Adds to the list of names and the description of the C interface what has come, of a build folder:
 #   tests/compatibility/write.sh build/release
-# Then look at what git says has gone: COMPATIBILITY.md.
+# Names that have gone, and structures that changed under the same soname, are errors: COMPATIBILITY.md.
 set -euo pipefail
 build=$(cd "${1:?expected a build folder}" && pwd)
 cd "$(dirname "${BASH_SOURCE[0]}")"
