@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Audits long runs of all effects: every pair of bodies between all its collisions, every hit, kick and
+"""Audits long runs of most effects: every pair of bodies between all its collisions, every hit, kick and
 contact. Writes bench/results/audits.md.
 
     bench/audits/audits.py FOLDER    keeps a result for each scene in FOLDER, and runs those it lacks
