@@ -204,7 +204,7 @@ install_packages() {
 
 # With what they depend on, also what that only suggests to other packages, as some do Python.
 remove_packages() {
-  inside "apt-get purge --yes '~i^(python3-|lib)?needlework'
+  inside "apt-get purge --yes \$(dpkg-query --show --showformat '\${Package} ' '*needlework*')
     apt-get autoremove --purge --yes -o APT::AutoRemove::RecommendsImportant=false \
       -o APT::AutoRemove::SuggestsImportant=false"
 }
