@@ -308,13 +308,14 @@ NEEDLEWORK_API int needlework_get_state(needlework_simulation* simulation,
 NEEDLEWORK_API int needlework_write_state(needlework_simulation* simulation, const char* path,
                                           unsigned flags);
 
-/* Replaces all velocities at the present time, by increasing id; the part of an angular velocity
- * along the director is removed. Without angular velocities, where that is NULL, they are 0, and
- * needlework_message() says so. Needles that touch stay on their sides; hash, counts and the
- * energy at the start are kept. The output file says in /velocities_set when that was and by how
- * much the energy changed, and kinetic theory is left out of it from then on. A sample or a frame
- * that is due at this instant is taken when the run goes on, and holds the new velocities;
- * needlework_sample() before this call adds one with the old ones. [handle] */
+/* Replaces all velocities at the present time, by increasing id, as needlework_get_state() gives
+ * them: with the flow of a shear rate. The part of an angular velocity along the director is
+ * removed. Without angular velocities, where that is NULL, they are 0, and needlework_message()
+ * says so. Needles that touch stay on their sides; hash, counts and the energy at the start are
+ * kept. The output file says in /velocities_set when that was and by how much the energy changed,
+ * and kinetic theory is left out of it from then on. A sample or a frame that is due at this
+ * instant is taken when the run goes on, and holds the new velocities; needlework_sample() before
+ * this call adds one with the old ones. [handle] */
 NEEDLEWORK_API int needlework_set_velocities(needlework_simulation* simulation,
                                              const needlework_const_vectors* velocity,
                                              const needlework_const_vectors* angular_velocity);

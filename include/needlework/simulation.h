@@ -179,8 +179,9 @@ class Simulation {
   /// proportional to the number of needles. Throws InputError for an unknown id.
   FreeNeedle needle(std::uint32_t id) const;
 
-  /// Replaces the velocities of all needles at the present time. Rows are in order of id; the part
-  /// of an angular velocity along the director is removed. Needles that touch stay on their sides.
+  /// Replaces the velocities of all needles at the present time. Rows are in order of id, as copy()
+  /// gives them: with the flow of a shear rate, across which their momentum is to be 0. The part of
+  /// an angular velocity along the director is removed. Needles that touch stay on their sides.
   /// Temperatures, mean free time and the contact time in force follow the new velocities. The
   /// memory of the t_c rule, the hash of previous collisions, all counts and the initial energy,
   /// to which energy_ratio refers, are kept. Costs about as much as constructing the simulation,

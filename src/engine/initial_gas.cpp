@@ -207,24 +207,6 @@ void require_inside(const Scene& scene, const Gas& gas) {
   }
 }
 
-// Momentum along y would carry needles to where the flow is faster, all the time.
-void require_steady_flow(const Gas& gas) {
-  if (!gas.shear) return;
-  constexpr double most = 0x1p-20;  // beyond what rounding to single precision does
-  double sum = 0, size = 0;
-  for (Needle i{0}; i < gas.size(); ++i) {
-    const double momentum = gas.body(i).mass * gas.records[i].flight.v.y;
-    sum += momentum;
-    size += std::abs(momentum);
-  }
-  if (std::abs(sum) <= most * size) return;
-  throw InputError(fmt::format(
-      "state: a total momentum of {:.6g} along y, across the flow of [shear]: expected 0 to within "
-      "rounding, as it would make that along x grow for ever; subtract {:.17g} from the velocities "
-      "along y",
-      sum, sum / total_mass(gas.composition)));
-}
-
 // That no two rods overlap but by rounding, and that smooth spheres do not turn.
 void require_room_for_rods(const Gas& gas) {
   if (!gas.composition.has_width()) return;
@@ -316,6 +298,25 @@ std::vector<std::array<double, 3>> velocities_of(const Gas& gas, const State& in
 
 }  // namespace
 
+// Momentum along y would carry needles to where the flow is faster, all the time.
+void require_steady_flow(const Gas& gas, std::string_view what,
+                         const std::function<double(Needle)>& velocity_y) {
+  if (!gas.shear) return;
+  constexpr double most = 0x1p-20;  // beyond what rounding to single precision does
+  double sum = 0, size = 0;
+  for (Needle i{0}; i < gas.size(); ++i) {
+    const double momentum = gas.body(i).mass * velocity_y(i);
+    sum += momentum;
+    size += std::abs(momentum);
+  }
+  if (std::abs(sum) <= most * size) return;
+  throw InputError(fmt::format(
+      "{}: a total momentum of {:.6g} along y, across the flow of [shear]: expected 0 to within "
+      "rounding, as it would make that along x grow for ever; subtract {:.17g} from the velocities "
+      "along y",
+      what, sum, sum / total_mass(gas.composition)));
+}
+
 Gas make_gas(const Scene& scene, const State& initial) {
   const std::size_t count = initial.size();
   check_size(initial.orientation.size(), count, "orientation");
@@ -380,7 +381,7 @@ Gas make_gas(const Scene& scene, const State& initial) {
   set_own_bodies(gas, composition, growth.largest, initial, order);
   if (scene.driving.growth) let_grow(gas, scene, growth);
   require_fixed_at_rest(gas);
-  require_steady_flow(gas);
+  require_steady_flow(gas, "state", [&](Needle i) { return gas.records[i].flight.v.y; });
   require_inside(scene, gas);
   require_room_for_rods(gas);
   return gas;

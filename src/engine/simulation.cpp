@@ -64,7 +64,7 @@ LoopChoice choice_of(const Scene& scene, const Run& run, double density) {
 
 double square(const std::array<double, 3>& a) { return a[0] * a[0] + a[1] * a[1] + a[2] * a[2]; }
 
-// Passes the square of each row, which enters the energy, to add(row, square).
+// Passes each row, whose square enters the energy, to add(row, values).
 template <class Add>
 void check_squares(std::span<const std::array<double, 3>> values, std::size_t count,
                    const char* what, const Add& add) {
@@ -79,7 +79,7 @@ void check_squares(std::span<const std::array<double, 3>> values, std::size_t co
           "set_velocities: row {} of {} = ({}, {}, {}): expected finite numbers, their squares too",
           i, what, a[0], a[1], a[2]));
     }
-    add(i, square(a));
+    add(i, a);
   }
 }
 
@@ -145,19 +145,32 @@ struct Simulation::Implementation {
     return out;
   }
 
+  // Velocities are given as they are copied, of the images in the box.
+  struct FlowOfImage {
+    Vec3d at_place;  ///< the flow where the image is [L / time]
+    Vec3d beyond;    ///< how much faster the needle itself is than its image [L / time]
+  };
+  FlowOfImage flow_of_image(Needle i) const {
+    if (!run.gas.shear) return {};
+    const Box box = run.gas.box_at(run.now);
+    const auto [place, boxes] = box.wrap(to_array(run.gas.present(i, run.now).r));
+    return {run.gas.flow_at(vector_of(place)), box.image(boxes).velocity};
+  }
+
   void set_velocities(std::span<const std::array<double, 3>> velocity,
                       std::span<const std::array<double, 3>> angular_velocity) {
     const std::vector<Needle> rows = by_id();
     std::vector<SumsOfSquares> sums(run.gas.composition.size());
-    const auto add_to = [&](double SumsOfSquares::*sum, double Weight::*weight) {
-      return [&, sum, weight](std::size_t row, double square) {
-        const Needle i = rows[row];
-        sums[run.gas.records[i].species].*sum += weight_of(run.gas, i).*weight * square;
-      };
-    };
-    check_squares(velocity, rows.size(), "velocity", add_to(&SumsOfSquares::v2, &Weight::mass));
-    check_squares(angular_velocity, rows.size(), "angular velocity",
-                  add_to(&SumsOfSquares::w2, &Weight::inertia));
+    check_squares(velocity, rows.size(), "velocity", [&](std::size_t row, const auto& v) {
+      const Needle i = rows[row];
+      const Vec3d beside = vector_of(v) - flow_of_image(i).at_place;
+      sums[run.gas.records[i].species].v2 += weight_of(run.gas, i).mass * dot(beside, beside);
+    });
+    check_squares(
+        angular_velocity, rows.size(), "angular velocity", [&](std::size_t row, const auto& w) {
+          const Needle i = rows[row];
+          sums[run.gas.records[i].species].w2 += weight_of(run.gas, i).inertia * square(w);
+        });
     if (run.gas.composition.has_fixed()) {
       require_fixed_at_rest(run.gas, rows, velocity, "velocity");
       require_fixed_at_rest(run.gas, rows, angular_velocity, "angular velocity");
@@ -168,11 +181,13 @@ struct Simulation::Implementation {
     run.require_followable(
         sums, std::ranges::any_of(velocity, moves) || std::ranges::any_of(angular_velocity, moves));
     const std::vector<Needle> ranks = ranks_of(rows);
+    require_steady_flow(run.gas, "set_velocities", [&](Needle i) { return velocity[ranks[i]][1]; });
     // On which sides needles are that touch now is known once all have searched.
     if (loop) loop->prepare(nullptr);
     replace([&] {
-      return run.set_velocities([&](Needle i) { return vector_of(velocity[ranks[i]]); },
-                                [&](Needle i) { return vector_of(angular_velocity[ranks[i]]); });
+      return run.set_velocities(
+          [&](Needle i) { return vector_of(velocity[ranks[i]]) + flow_of_image(i).beyond; },
+          [&](Needle i) { return vector_of(angular_velocity[ranks[i]]); });
     });
   }
 

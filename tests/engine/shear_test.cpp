@@ -433,6 +433,39 @@ TEST(Shear, RefusesAStateWithMomentumAcrossTheFlow) {
   EXPECT_THROW(Simulation(scene, state), InputError);
 }
 
+// Rows are of the images in the box, as copy() gives them, however far needles have gone.
+TEST(Shear, TakesVelocitiesAsItGivesThem) {
+  const Scene scene = sheared(60, 4, 0.7);
+  Simulation simulation(scene);
+  simulation.advance(until_time(1.3));
+  const State before = simulation.copy();
+  const bool any_has_crossed =
+      std::ranges::any_of(before.image, [](const auto& image) { return image[1] != 0; });
+  ASSERT_TRUE(any_has_crossed);
+  const Totals totals = simulation.totals();
+  simulation.set_velocities(before.velocity, before.angular_velocity);
+  const State after = simulation.copy();
+  for (std::size_t n = 0; n < before.size(); ++n) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(after.velocity[n][axis], before.velocity[n][axis], 1e-14) << n;
+      EXPECT_NEAR(after.peculiar_velocity[n][axis], before.peculiar_velocity[n][axis], 1e-14) << n;
+    }
+  }
+  EXPECT_NEAR(simulation.totals().energy, totals.energy, 1e-13);
+
+  auto upwards = before.velocity;
+  for (auto& v : upwards) v[1] += 1;
+  try {
+    simulation.set_velocities(upwards, before.angular_velocity);
+    FAIL() << "expected an error";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("set_velocities: a total momentum of 60 along y"),
+              std::string::npos)
+        << error.what();
+  }
+  EXPECT_EQ(simulation.copy().velocity, after.velocity);
+}
+
 // Velocities beside the flow are those that are drawn, have the temperatures and no momentum.
 TEST(Shear, DrawsVelocitiesBesideTheFlow) {
   const Scene scene = sheared(500, 6, 40, 1);
