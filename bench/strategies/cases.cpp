@@ -178,10 +178,18 @@ std::vector<Case> by_effects() {
   const Scene::Collisions elastic, rough{.beta = 0, .tc = {}, .tc_relative = {}},
       inelastic{.epsilon = 0.9, .tc = {}, .tc_relative = 1e-3},
       all{.epsilon = 0.9, .beta = 0, .tc = {}, .tc_relative = 1e-3};
+  GasScene spheres{"spheres", 10000, 24, elastic};
+  // They collide about as often as the needles.
+  spheres.species = {{.name = "sphere", .count = 10000, .length = 0, .diameter = 0.4}};
+  GasScene rough_spheres = spheres;
+  rough_spheres.name = "rough-spheres";
+  rough_spheres.collisions = rough;
   return product({{"elastic", 10000, 24, elastic},
                   {"rough", 10000, 24, rough},
                   {"inelastic-tc", 10000, 24, inelastic},
-                  {"inelastic-rough-tc", 10000, 24, all}},
+                  {"inelastic-rough-tc", 10000, 24, all},
+                  spheres,
+                  rough_spheres},
                  {searched_by("auto")});
 }
 
@@ -326,7 +334,9 @@ const std::vector<Subset>& subsets() {
        by_volume_sizes},
       {"cloud", "8000 needles in a part of their box: cells for the whole box, and as chosen",
        by_cloud},
-      {"effects", "10000 needles in a box of 24: what collisions may do", by_effects},
+      {"effects",
+       "10000 needles in a box of 24: what collisions may do; and spheres, smooth and rough",
+       by_effects},
       {"mixtures",
        "100000 needles, and mixtures 1:4 and 1:20 in length that collide as often: in one grid, "
        "and "

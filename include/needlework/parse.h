@@ -35,7 +35,8 @@ struct Provided {
 /// Throws InputError with one message about the first error (syntax, then the file by line, then
 /// the overrides in order, then missing keys): "NAME: line N: section.key = VALUE: expected ...",
 /// "NAME: section.key is missing: expected ...", "NAME: line N: REASON" for text that is not TOML,
-/// or "--set section.key=VALUE: expected ...". Messages contain no control characters.
+/// or "--set section.key=VALUE: expected ...". Messages contain no control characters. A scene that
+/// draws the sizes of more bodies than there is memory for is an error, too.
 Scene parse_scene(std::string_view text, std::string_view name,
                   std::span<const std::string> overrides = {}, Provided provided = {});
 

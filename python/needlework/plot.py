@@ -57,11 +57,11 @@ def temperatures(source: Source, gas: Values | None = None,
 def temperature_ratio(source: Source, gas: Values | None = None,
                       axes: Axes | None = None) -> Axes:
     """The ratio of translational and rotational temperature against time, beside theory; of the
-    file of a mixture also that of each species. Spheres have no such ratio."""
+    file of a mixture also that of each species. Smooth spheres have no such ratio."""
     series, gas, by_species = _series_and_gas(source, gas)
-    if not np.any(gas.length):
-        raise InputError("source: spheres do not rotate: expected a gas of needles or rods, which "
-                         "has a rotational temperature")
+    if not np.any(_turning(gas)):
+        raise InputError("source: smooth spheres do not rotate: expected a gas of needles, rods or "
+                         "rough spheres, which has a rotational temperature")
     axes = axes or _new_axes()
     _draw(axes, series, gas, by_species, [("", lambda of: of.t_tr / of.t_rot)])
     return _finished(axes, r"$T_{\rm tr} / T_{\rm rot}$")
@@ -121,8 +121,9 @@ def _draw(axes: Axes, series: Series, gas: Values, by_species: Values | None,
     parts = [(f"{gas.count} needles", series, curve)]
     if by_species is not None:
         names = gas.species[:len(_SPECIES)]
-        parts += [(name, _of_species(by_species, n),
-                   _of_species(curve_by_species, n) if has_theory else None)
+        turning = _turning(gas)
+        parts += [(name, _of_species(by_species, n, turning[n]),
+                   _of_species(curve_by_species, n, turning[n]) if has_theory else None)
                   for n, name in enumerate(names)]
     colours = iter([_MEASURED["color"], *_SPECIES])
     line = dict(_THEORY)
@@ -143,9 +144,14 @@ def _draw(axes: Axes, series: Series, gas: Values, by_species: Values | None,
                         **{**_MEASURED, "color": colour}, markerfacecolor=fill, label=label)
 
 
-def _of_species(sums: Values, n: int) -> Values:
+def _turning(gas: Values) -> np.ndarray:
+    """Half the rotational degrees of freedom of each species."""
+    return np.where(gas.length > 0, 1.0, np.where(np.greater(gas.get("q", 0.0), 0), 1.5, 0.0))
+
+
+def _of_species(sums: Values, n: int, turning: float) -> Values:
     t_tr, t_rot = sums.t_tr[:, n], sums.t_rot[:, n]
-    return Values({"t_tr": t_tr, "t_rot": t_rot, "energy": 1.5 * t_tr + t_rot})
+    return Values({"t_tr": t_tr, "t_rot": t_rot, "energy": 1.5 * t_tr + turning * t_rot})
 
 
 def _has_theory(gas: Values) -> bool:
@@ -161,9 +167,11 @@ def _theory(series: Series, gas: Values,
     times = series.time[(series.time > 0) & (series.time <= last)]
     if by_species is not None:
         curve = theory.mixture_cooling(gas, by_species.t_tr[0], by_species.t_rot[0], times)
-        turning = np.where(gas.length > 0, gas.counts, 0)
+        turning = _turning(gas) * gas.counts
+        with np.errstate(invalid="ignore"):  # of smooth spheres alone, which have no T_rot
+            t_rot = curve.t_rot @ turning / np.sum(turning)
         return times, Values({"energy": curve.energy, "t_tr": curve.t_tr @ gas.counts / gas.count,
-                              "t_rot": curve.t_rot @ turning / np.sum(turning)}), curve
+                              "t_rot": t_rot}), curve
     if "diameter" in gas:
         curve = theory.mixture_cooling(gas, series.t_tr[0], series.t_rot[0], times)
         return times, Values({"energy": curve.energy, "t_tr": curve.t_tr[:, 0],

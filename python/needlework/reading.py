@@ -254,8 +254,8 @@ class Recording(NotPickled):
         """What theory has to know: count, box, k, epsilon, beta, length and mass; of several
         species the arrays species (their names), counts, k, length and mass, [species], and
         epsilon and beta of each two, [species, species]; meet, of each two whether they do, where
-        some pass through each other; diameter of rods of finite width, of each
-        species of several; differ, whether bodies of a species do, of whom length, diameter, mass
+        some pass through each other; diameter of rods of finite width, and q = 4 I / (m D^2)
+        where spheres are rough, of each species of several; differ, whether bodies of a species do, of whom length, diameter, mass
         and k are means; and undisturbed_until, when a caller
         first replaced the velocities, or inf."""
         given, first = self.parameters, self.frames[0]
@@ -271,6 +271,9 @@ class Recording(NotPickled):
         for name in ("diameter", "meet"):
             if name in given:
                 facts[name] = given[name]
+        q = _q_of_spheres(given)
+        if np.any(q > 0):
+            facts["q"] = q
         return Values({**facts, "k": given.k, "epsilon": given.epsilon, "beta": given.beta,
                        "length": given.get("length", 1.0),
                        "undisturbed_until": min(self.velocities_set.time, default=np.inf)})
@@ -312,6 +315,16 @@ class Recording(NotPickled):
                       "samples": self.series.rows if self._has("series") else "not recorded",
                       "events": len(self.events) if self._has("events") else "not recorded"}
         return html_table(facts)
+
+
+def _q_of_spheres(given: Values) -> np.ndarray | float:
+    """4 I / (m D^2), which only rough spheres have: 0 of others, and of fixed ones, whose mass and
+    moment of inertia are infinite."""
+    if "inertia" not in given:
+        return 0.0
+    with np.errstate(divide="ignore", invalid="ignore"):
+        q = 4 * np.divide(given.inertia, np.multiply(given.mass, np.square(given.diameter)))
+    return plain(np.where((np.asarray(given.length) == 0) & np.isfinite(q), q, 0.0)[()])
 
 
 def _open(path: str) -> tuple[h5py.File, list[h5py.Dataset]]:

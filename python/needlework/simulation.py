@@ -724,12 +724,13 @@ class Simulation(NotPickled):
         """What theory has to know: count, box, k, epsilon, beta, length and mass; of several
         species the arrays species (their names), counts, k, length and mass, [species], and
         epsilon and beta of each two, [species, species]; meet, of each two whether they do, where
-        some pass through each other; diameter of rods of finite width, of each
-        species of several; differ, whether bodies of a species do, of whom length, diameter, mass
+        some pass through each other; diameter of rods of finite width, and q = 4 I / (m D^2)
+        where spheres are rough, of each species of several; differ, whether bodies of a species do, of whom length, diameter, mass
         and k are means; and undisturbed_until, the time of the
         first set_velocities(), or inf."""
         names = [name for name in ("count", "box", "species", "counts", "k", "epsilon", "beta",
-                                   "meet", "length", "mass", "diameter", "differ") if name in self._facts]
+                                   "meet", "length", "mass", "diameter", "q", "differ")
+                 if name in self._facts]
         return Values({**{name: self._facts[name] for name in names}, "box": self.box,
                        "undisturbed_until": self._undisturbed_until})
 

@@ -172,9 +172,10 @@ def mixture_rates(gas: Mapping[str, Any], t_tr: ArrayLike, t_rot: ArrayLike) -> 
         length, mass and k ([species]); epsilon and beta of each two ([species, species]). One
         number stands for all, and length = 1, mass = 1, k = 6, epsilon = 1 and beta = -1 for what
         is not given. With a diameter they are rods of finite width, homogeneous where k is not
-        given, for which this is exact at low density; with length = 0 spheres, homogeneous ones
-        where beta makes them rough. Bodies that differ within a species, and fixed ones, are
-        refused.
+        given, for which this is exact at low density; with length = 0 spheres. Those that beta
+        makes rough have q = 4 I / (m D^2) of their moment of inertia I, at most 2/3; without it,
+        or with 0, they are homogeneous, q = 2/5. Bodies that differ within a species, and fixed
+        ones, are refused.
     """
     given, size = _mixture(gas)
     collisions, d_tr, d_rot = _core.mixture_rates(*given, _each("t_tr", t_tr, size),
@@ -191,12 +192,9 @@ def mixture_cooling(gas: Mapping[str, Any], t_tr0: ArrayLike, t_rot0: ArrayLike,
     """
     given, size = _mixture(gas)
     times = np.atleast_1d(numbers("time", time)).reshape(-1)
-    t_tr, t_rot = _core.mixture_cooling(*given, _each("t_tr0", t_tr0, size),
-                                        _each("t_rot0", t_rot0, size), times)
-    share = given[0] / max(given[0].sum(), 1)
-    freedoms = np.where(given[1] > 0, 1.0, 1.5)  # half the rotational ones: three of a rough sphere
-    return MixtureCurve({"time": times, "t_tr": t_tr, "t_rot": t_rot,
-                         "energy": (1.5 * t_tr + freedoms * t_rot) @ share})
+    t_tr, t_rot, energy = _core.mixture_cooling(*given, _each("t_tr0", t_tr0, size),
+                                                _each("t_rot0", t_rot0, size), times)
+    return MixtureCurve({"time": times, "t_tr": t_tr, "t_rot": t_rot, "energy": energy})
 
 
 def equipartition_k() -> float:
@@ -235,6 +233,11 @@ def _mixture(gas: Mapping[str, Any]) -> tuple[tuple[Any, ...], int]:
         raise InputError("length = 0: expected numbers > 0, or a diameter > 0")
     mass, k = (_each(name, gas.get(name, usual), size, positive=True)
                for name, usual in (("mass", 1.0), ("k", homogeneous_k(length, diameter))))
+    q = _each("q", gas.get("q", 0.0), size)
+    wrong = q[(q != 0) & ~((q >= 1e-9) & (q <= 2 / 3 * (1 + 1e-12)))]
+    if wrong.size:
+        raise InputError(f"q = {wrong[0]:g}: expected a number from 1e-9 to 2/3, at which all mass "
+                         "is at the surface, or 0 for homogeneous spheres")
     epsilon, beta, meet = (_each_two(name, gas.get(name, usual), size, least)
                            for name, usual, least in (("epsilon", 1.0, 0.0), ("beta", -1.0, -1.0),
                                                       ("meet", 1.0, 0.0)))
@@ -242,7 +245,7 @@ def _mixture(gas: Mapping[str, Any]) -> tuple[tuple[Any, ...], int]:
     if box.shape not in ((), (3,)) or not np.all(np.isfinite(box) & (box > 0)):
         raise InputError(f"box = {box}: expected one or three edges > 0")
     volume = float(np.prod(np.broadcast_to(box, 3)))
-    return (counts, length, mass, k, diameter, epsilon, beta, meet, volume), size
+    return (counts, length, mass, k, diameter, q, epsilon, beta, meet, volume), size
 
 
 def _each(name: str, values: ArrayLike, size: int, positive: bool = False) -> np.ndarray:

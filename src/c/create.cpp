@@ -6,9 +6,9 @@
 #include "needlework/parse.h"
 #include "src/c/handle.h"
 #include "src/c/vectors.h"
-#include "src/runs/estimates.h"
 #include "src/runs/load_checkpoint.h"
 #include "src/runs/output_path.h"
+#include "src/scene/needed_memory.h"
 
 namespace needlework::c {
 namespace {
@@ -31,7 +31,7 @@ void require_possible(const needlework_initial& initial, const Scene& scene) {
   }
   Scene sized = scene;
   sized.needles.count = initial.count;
-  runs::require_memory(sized);
+  require_memory(sized);
 }
 
 State state_of(const needlework_initial& initial, const int32_t* image, const uint8_t* species,

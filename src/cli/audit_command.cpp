@@ -16,7 +16,7 @@
 #include "src/cli/progress.h"
 #include "src/cli/scene_arguments.h"
 #include "src/cli/signals.h"
-#include "src/runs/amount_text.h"
+#include "src/runs/duration_text.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/exit_codes.h"
 #include "src/runs/output_path.h"

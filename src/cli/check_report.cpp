@@ -10,12 +10,13 @@
 #include "src/composition/pair_name.h"
 #include "src/json/results.h"
 #include "src/machine/available_cores.h"
-#include "src/runs/amount_text.h"
+#include "src/runs/duration_text.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/resources.h"
 #include "src/runs/size_text.h"
 #include "src/scene/confinement.h"
 #include "src/scene/growth_plan.h"
+#include "src/scene/needed_memory.h"
 
 namespace needlework::cli {
 namespace {
@@ -581,8 +582,8 @@ std::string text_of(const runs::Explanation& e) {
   text += line("engine", engine_text(e));
   text += line("cores", available_cores().text());
   text += line("output", output_text(scene.output));
-  text += line("memory", fmt::format("about {} of {}", runs::bytes_text(e.memory),
-                                     runs::bytes_text(runs::available_memory())));
+  text += line("memory", fmt::format("about {} of {}", bytes_text(e.memory),
+                                     bytes_text(runs::available_memory())));
   if (std::isfinite(e.seconds))
     text += line("wall time", "about " + runs::duration_text(e.seconds));
   return text;

@@ -207,6 +207,11 @@ void add_theory_command(CLI::App& app, int& exit_code) {
                    "m L^2 / (2 I): 6 for a uniform rod, 2 for all mass at the tips")
       ->option_text("K");
   command
+      ->add_option("--q", arguments->q,
+                   "4 I / (m D^2) of rough spheres, in place of --k: 0.4 if homogeneous, 2/3 for "
+                   "all mass at the surface")
+      ->option_text("Q");
+  command
       ->add_option("--beta", arguments->beta,
                    "tangential restitution, from -1 (smooth, the default) to 1")
       ->option_text("B");
@@ -243,7 +248,8 @@ void add_theory_command(CLI::App& app, int& exit_code) {
       ->option_text("X");
   add_json(*command, arguments->json);
   command->footer(R"(Of a homogeneous gas. What no option gives is taken from the scene. Without a
-scene, --epsilon and --k are needed.
+scene, --epsilon and --k are needed, or --epsilon, --beta and --q of rough
+spheres at low density, of diameter 1.
 
 tau = (2/3) sqrt(pi) n sqrt(T_tr(0)) t is the time t scaled by the density n and
 the initial T_tr. c is the ratio T_tr / T_rot that a gas tends to as it cools,

@@ -12,7 +12,7 @@
 #include "src/cli/messages.h"
 #include "src/cli/report.h"
 #include "src/composition/pair_name.h"
-#include "src/runs/amount_text.h"
+#include "src/runs/duration_text.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/exact_rates.h"
 #include "src/runs/rod_totals.h"

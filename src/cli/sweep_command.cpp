@@ -26,7 +26,6 @@
 #include "src/cli/scene_arguments.h"
 #include "src/cli/signals.h"
 #include "src/cli/sweep_report.h"
-#include "src/runs/amount_text.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/exit_codes.h"
 #include "src/runs/resources.h"
@@ -36,6 +35,7 @@
 #include "src/runs/sweep_summary.h"
 #include "src/scene/adopt_state.h"
 #include "src/scene/check.h"
+#include "src/scene/needed_memory.h"
 
 namespace needlework::cli {
 namespace {
@@ -110,7 +110,7 @@ void require_memory(const runs::MemberRuns& runs) {
   throw InputError(fmt::format(
       "--threads {}: expected fewer: so many members at a time need about {} of memory, and {} are "
       "available here",
-      runs.threads, runs::bytes_text(needed), runs::bytes_text(available)));
+      runs.threads, bytes_text(needed), bytes_text(available)));
 }
 
 /// One sweep, step by step; all steps are done on all ranks.

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numbers>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -23,6 +26,7 @@
 #include "src/cli/messages.h"
 #include "src/cli/mixture_theory.h"
 #include "src/cli/scene_arguments.h"
+#include "src/composition/sizes.h"
 #include "src/observe/forecast.h"
 #include "src/runs/exit_codes.h"
 #include "src/runs/explanation.h"
@@ -48,10 +52,15 @@ struct NumberOption {
 constexpr NumberOption epsilon_option{"--epsilon", 0.0, 1.0, "a number in [0, 1]"};
 constexpr NumberOption beta_option{"--beta", -1.0, 1.0, "a number in [-1, 1]"};
 constexpr NumberOption k_option{"--k", 1e-12, 1e12, "a number in [1e-12, 1e12]"};
+constexpr NumberOption q_option{"--q", least_q, greatest_q,
+                                "a number in [1e-9, 2/3], at which all mass is at the surface"};
 constexpr NumberOption t_rot0_option{"--t-rot0", 0.0, largest, "a finite number, 0 or more"};
 constexpr NumberOption tau_option{"--tau", 0.0, largest, "a finite number, 0 or more"};
 constexpr NumberOption time_option{"--time", 0.0, largest, "a finite number, 0 or more"};
 constexpr NumberOption density_option{"--density", 0.0, 1e12, "a number in [0, 1e12]"};
+constexpr NumberOption density_of_spheres_option{
+    "--density", 0.0, std::numbers::sqrt2,
+    "a number in [0, 2^1/2], as spheres of diameter 1 are never denser"};
 constexpr NumberOption needles_option{"--needles", 64, 1e9, "a number from 64 to 1e9"};
 constexpr NumberOption seed_option{"--seed", 0, 0x1p53, "a whole number from 0 to 2^53"};
 constexpr NumberOption tc_option{"--tc", 0.0, largest, "a finite number, 0 or more"};
@@ -59,6 +68,7 @@ constexpr NumberOption tc_option{"--tc", 0.0, largest, "a finite number, 0 or mo
 /// What the predictions are for.
 struct Question {
   theory::Gas gas;
+  std::optional<double> q;  ///< of rough spheres, of diameter 1, which have no k
   theory::Temperatures initial;
   std::optional<double> density;  ///< [L^-3]
   std::vector<double> taus;
@@ -69,7 +79,7 @@ struct Question {
 
 struct Predictions : Question {
   double ratio;            ///< T_tr / T_rot in the end, NaN in an elastic gas
-  double equipartition_k;  ///< NaN for rough needles, where it depends on epsilon and beta
+  double equipartition_k;  ///< NaN for rough bodies, where it depends on epsilon and beta
   std::vector<theory::Temperatures> curve;
   std::vector<double> collisions;  ///< per needle
 
@@ -100,6 +110,19 @@ double choose(const NumberOption& option, const std::optional<std::string>& text
       fmt::format("{} is missing: expected {}, or a scene (see needlework "
                   "theory --help)",
                   option.name, option.expectation));
+}
+
+// Those who ask for rough spheres without a scene ask for nothing of needles.
+void require_spheres(const TheoryArguments& arguments) {
+  if (!arguments.q) return;
+  const auto refuse = [&](const char* expected) {
+    throw std::invalid_argument(fmt::format("--q {}: expected {}", *arguments.q, expected));
+  };
+  if (!arguments.scene.empty()) refuse("none beside a scene, which says what its bodies are");
+  if (arguments.k) refuse("either --q or --k, not both: spheres or needles");
+  if (!arguments.boltzmann.empty()) refuse("none beside --boltzmann, which simulates thin needles");
+  if (!arguments.beta || number_of(beta_option, *arguments.beta) == -1)
+    refuse("--beta above -1 beside it, as nothing turns smooth spheres");
 }
 
 // By decades, from a tenth of the mean free time to the end that is expected, or five decades on.
@@ -142,10 +165,16 @@ Question question_of(const TheoryArguments& arguments,
         fmt::format("--set {}: expected a scene that it changes", arguments.overrides[0]));
   }
   question.gas.epsilon = choose(epsilon_option, arguments.epsilon, epsilon);
-  question.gas.k = choose(k_option, arguments.k, k);
+  if (arguments.q)
+    question.q = number_of(q_option, *arguments.q);
+  else
+    question.gas.k = choose(k_option, arguments.k, k);
   question.gas.beta = choose(beta_option, arguments.beta, beta);
   question.initial = {.t_tr = *t_tr, .t_rot = choose(t_rot0_option, arguments.t_rot0, t_rot)};
-  if (arguments.density) question.density = number_of(density_option, *arguments.density);
+  if (arguments.density) {
+    question.density =
+        number_of(question.q ? density_of_spheres_option : density_option, *arguments.density);
+  }
   for (const std::string& tau : arguments.taus) {
     question.taus.push_back(number_of(tau_option, tau));
   }
@@ -165,9 +194,30 @@ Question question_of(const TheoryArguments& arguments,
   return question;
 }
 
+Predictions predictions_of_spheres(const Question& question) {
+  const Restitution rule{question.gas.epsilon, question.gas.beta};
+  Predictions result{
+      question, theory::asymptotic_ratio_of_spheres(*question.q, rule), not_computed, {}, {}, {}};
+  const Composition spheres({{.count = 2, .length = 0, .diameter = 1, .q = *question.q}}, rule);
+  // Each has one partner, at the density at which tau is the time.
+  theory::MixtureCurve curve(spheres, theory_time_scale(1), std::array{question.initial});
+  std::vector<std::size_t> order(question.taus.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t n) { return question.taus[n]; });
+  result.curve.resize(order.size());
+  result.collisions.resize(order.size());
+  for (const std::size_t n : order) {
+    result.curve[n] = theory::mean_of_species(spheres, curve.at(question.taus[n]));
+    result.collisions[n] = curve.collisions_per_needle();
+  }
+  return result;
+}
+
 Predictions predictions_of(const TheoryArguments& arguments,
                            const std::optional<runs::LoadedScene>& loaded) {
-  Predictions result{question_of(arguments, loaded), not_computed, not_computed, {}, {}, {}};
+  const Question question = question_of(arguments, loaded);
+  if (question.q) return predictions_of_spheres(question);
+  Predictions result{question, not_computed, not_computed, {}, {}, {}};
   result.ratio = theory::asymptotic_ratio(result.gas);
   if (result.gas.beta == -1.0) result.equipartition_k = theory::equipartition_k();
   const bool is_elastic = result.gas.epsilon == 1 && result.gas.beta == -1;
@@ -184,12 +234,14 @@ Predictions predictions_of(const TheoryArguments& arguments,
 
 /// NaN becomes null, and numbers keep all their digits.
 std::string json_of(const Predictions& predictions) {
-  nlohmann::ordered_json json{{"epsilon", predictions.gas.epsilon},
-                              {"beta", predictions.gas.beta},
-                              {"k", predictions.gas.k},
-                              {"c", number(predictions.ratio)},
-                              {"k_star", number(predictions.equipartition_k)},
-                              {"tau", predictions.taus}};
+  nlohmann::ordered_json json{{"epsilon", predictions.gas.epsilon}, {"beta", predictions.gas.beta}};
+  if (predictions.q)
+    json["q"] = *predictions.q;
+  else
+    json["k"] = predictions.gas.k;
+  json["c"] = number(predictions.ratio);
+  if (!predictions.q) json["k_star"] = number(predictions.equipartition_k);
+  json["tau"] = predictions.taus;
   std::vector<double> t_tr, t_rot, energy, times;
   for (std::size_t i = 0; i < predictions.taus.size(); ++i) {
     t_tr.push_back(predictions.curve[i].t_tr);
@@ -217,7 +269,8 @@ std::string json_of(const Predictions& predictions) {
 
 std::string table_text(const Predictions& predictions) {
   const theory::Gas& gas = predictions.gas;
-  std::string text = fmt::format("epsilon {}, beta {}, k {}", gas.epsilon, gas.beta, gas.k);
+  std::string text = fmt::format("epsilon {}, beta {}, ", gas.epsilon, gas.beta);
+  text += predictions.q ? fmt::format("q {}", *predictions.q) : fmt::format("k {}", gas.k);
   if (predictions.density) text += fmt::format(", density {:.6g}", *predictions.density);
   text += std::isnan(predictions.ratio)
               ? std::string("\nelastic: T_tr/T_rot tends to 1, and nothing cools\n")
@@ -397,6 +450,7 @@ void require_homogeneous(const Scene& scene, const std::string& path) {
 std::string text_of(TheoryArguments arguments) {
   take_scene(arguments.taus, arguments.scene);
   take_scene(arguments.times, arguments.scene);
+  require_spheres(arguments);
   std::optional<runs::LoadedScene> loaded;
   if (!arguments.scene.empty()) {
     loaded = load_scene({.path = arguments.scene, .overrides = arguments.overrides, .engine = {}});

@@ -12,7 +12,7 @@ namespace needlework::cli {
 struct TheoryArguments {
   std::string scene;  ///< path, empty for none
   std::vector<std::string> overrides;
-  std::optional<std::string> epsilon, k, beta, t_rot0, density;
+  std::optional<std::string> epsilon, k, q, beta, t_rot0, density;
   std::vector<std::string> taus, times;
   std::string boltzmann;  ///< "single", "encounters", or empty for kinetic theory
   std::optional<std::string> needles, seed, tc;  ///< with boltzmann

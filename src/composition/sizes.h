@@ -22,6 +22,8 @@ struct BodyNumbers {
 
 /// 4 I / (m D^2) of a sphere.
 inline constexpr double q_of_homogeneous = 0.4;
+/// The mass of a sphere is nowhere farther from its centre than its surface, but for rounding.
+inline constexpr double least_q = 1e-9 * (1 - 1e-12), greatest_q = 2.0 / 3 * (1 + 1e-12);
 inline double q_of(double mass, double diameter, double inertia) {
   return 4 * inertia / (mass * (diameter * diameter));
 }

@@ -70,6 +70,8 @@ void set_up(const std::function<void()>& function) {
   }
 }
 
+bool is_rough_sphere(const Species& species) { return species.turns() && !species.has_axis(); }
+
 /// Properties of several species: arrays [species], and of each two [species][species].
 void add_species(py::dict& out, const Composition& composition) {
   const auto size = static_cast<py::ssize_t>(composition.size());
@@ -97,6 +99,7 @@ void add_species(py::dict& out, const Composition& composition) {
   for (const Species& one : composition.species()) masses.push_back(one.mass_or_infinity());
   out["mass"] = read_only(masses);
   if (composition.has_width()) out["diameter"] = each(&Species::diameter);
+  if (std::ranges::any_of(composition.species(), is_rough_sphere)) out["q"] = each(&Species::q);
   out["epsilon"] = pairs(&Restitution::epsilon);
   out["beta"] = pairs(&Restitution::beta);
   std::vector<std::uint8_t> meet;
@@ -440,6 +443,7 @@ py::dict Run::facts() {
     out["length"] = composition[0].length;
     out["mass"] = composition[0].mass;
     if (composition.has_width()) out["diameter"] = composition[0].diameter;
+    if (is_rough_sphere(composition[0])) out["q"] = composition[0].q;
     if (!composition.all_meet()) out["meet"] = composition.meets(0, 0);
   }
   out["differ"] = composition.has_own_sizes();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "needlework/diffusion.h"
+#include "src/composition/rough_spheres.h"
 #include "src/python/arrays.h"
 #include "src/python/interpreter.h"
 #include "src/python/parts.h"
@@ -73,8 +74,8 @@ py::tuple cooling(double epsilon, double k, double beta, double t_tr0, double t_
 
 // Arrays [species], and of each two [species][species]; the Python side has checked the shapes.
 Composition composition_of(const Column& counts, const Column& lengths, const Column& masses,
-                           const Column& ks, const Column& diameters, const Column& epsilons,
-                           const Column& betas, const Column& meet) {
+                           const Column& ks, const Column& diameters, const Column& qs,
+                           const Column& epsilons, const Column& betas, const Column& meet) {
   const auto size = static_cast<std::size_t>(counts.size());
   std::vector<Species> species(size);
   for (std::size_t n = 0; n < size; ++n) {
@@ -83,6 +84,7 @@ Composition composition_of(const Column& counts, const Column& lengths, const Co
     species[n].mass = masses.data()[n];
     species[n].k = ks.data()[n];
     species[n].diameter = diameters.data()[n];
+    species[n].q = qs.data()[n];
   }
   Composition out(std::move(species), {});
   for (std::size_t a = 0; a < size; ++a) {
@@ -91,14 +93,7 @@ Composition composition_of(const Column& counts, const Column& lengths, const Co
       out.set_meets(a, b, meet.data()[a * size + b] != 0);
     }
   }
-  for (std::size_t n = 0; n < size; ++n) {
-    Species body = out[n];
-    for (std::size_t other = 0; other < size; ++other) {
-      if (out.are_spheres(n, other) && out.restitution(n, other).is_rough())
-        body.q = 0.4;  // homogeneous
-    }
-    out.set_species(n, body);
-  }
+  set_q_of_spheres(out);
   return out;
 }
 
@@ -111,11 +106,11 @@ std::vector<theory::Temperatures> temperatures_of(const Column& t_tr, const Colu
 // Collisions per unit of time of each two species, [species][species], and the derivatives of the
 // temperatures of each.
 py::tuple mixture_rates(const Column& counts, const Column& lengths, const Column& masses,
-                        const Column& ks, const Column& diameters, const Column& epsilons,
-                        const Column& betas, const Column& meet, double volume, const Column& t_tr,
-                        const Column& t_rot) {
+                        const Column& ks, const Column& diameters, const Column& qs,
+                        const Column& epsilons, const Column& betas, const Column& meet,
+                        double volume, const Column& t_tr, const Column& t_rot) {
   const Composition composition =
-      composition_of(counts, lengths, masses, ks, diameters, epsilons, betas, meet);
+      composition_of(counts, lengths, masses, ks, diameters, qs, epsilons, betas, meet);
   const auto now = temperatures_of(t_tr, t_rot);
   const theory::MixtureRates rates = theory::mixture_rates(composition, volume, now);
   const auto size = static_cast<py::ssize_t>(composition.size());
@@ -130,13 +125,14 @@ py::tuple mixture_rates(const Column& counts, const Column& lengths, const Colum
   return py::make_tuple(collisions, d_tr, d_rot);
 }
 
-// Temperatures of each species at each time, [times][species].
+// Temperatures of each species at each time, [times][species], and the energy per body, [times].
 py::tuple mixture_cooling(const Column& counts, const Column& lengths, const Column& masses,
-                          const Column& ks, const Column& diameters, const Column& epsilons,
-                          const Column& betas, const Column& meet, double volume,
-                          const Column& t_tr0, const Column& t_rot0, const Column& times) {
+                          const Column& ks, const Column& diameters, const Column& qs,
+                          const Column& epsilons, const Column& betas, const Column& meet,
+                          double volume, const Column& t_tr0, const Column& t_rot0,
+                          const Column& times) {
   const Composition composition =
-      composition_of(counts, lengths, masses, ks, diameters, epsilons, betas, meet);
+      composition_of(counts, lengths, masses, ks, diameters, qs, epsilons, betas, meet);
   const auto initial = temperatures_of(t_tr0, t_rot0);
   std::vector<std::vector<theory::Temperatures>> curve;
   without_lock([&] {
@@ -145,13 +141,15 @@ py::tuple mixture_cooling(const Column& counts, const Column& lengths, const Col
                                 std::span(times.data(), static_cast<std::size_t>(times.size())));
   });
   Column t_tr({times.size(), counts.size()}), t_rot({times.size(), counts.size()});
+  Column energy(times.size());
   for (py::ssize_t i = 0; i < times.size(); ++i) {
     for (py::ssize_t n = 0; n < counts.size(); ++n) {
       t_tr.mutable_at(i, n) = curve[i][n].t_tr;
       t_rot.mutable_at(i, n) = curve[i][n].t_rot;
     }
+    energy.mutable_at(i) = theory::mean_of_species(composition, curve[i]).energy();
   }
-  return py::make_tuple(t_tr, t_rot);
+  return py::make_tuple(t_tr, t_rot, energy);
 }
 
 }  // namespace

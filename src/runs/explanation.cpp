@@ -13,6 +13,7 @@
 #include "src/scene/accuracy.h"
 #include "src/scene/check.h"
 #include "src/scene/confinement.h"
+#include "src/scene/needed_memory.h"
 #include "src/search/choice.h"
 
 namespace needlework::runs {

@@ -11,9 +11,9 @@
 #include "needlework/h5md.h"
 #include "needlework/theory.h"
 #include "src/runs/engine_choice.h"
-#include "src/runs/estimates.h"
 #include "src/scene/adopt_state.h"
 #include "src/scene/check.h"
+#include "src/scene/needed_memory.h"
 #include "src/scene/own_bodies.h"
 
 namespace needlework::runs {

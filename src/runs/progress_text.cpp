@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "src/runs/amount_text.h"
+#include "src/runs/duration_text.h"
 
 namespace needlework::runs {
 

@@ -14,9 +14,9 @@
 
 #include "needlework/error.h"
 #include "src/machine/stop_request.h"
-#include "src/runs/estimates.h"
 #include "src/runs/explanation.h"
 #include "src/runs/prepared_run.h"
+#include "src/scene/needed_memory.h"
 
 namespace needlework::runs {
 namespace {

@@ -3,22 +3,10 @@
 #include <vector>
 
 #include "needlework/scene.h"
+#include "src/composition/rough_spheres.h"
 #include "src/scene/own_bodies.h"
 
 namespace needlework {
-namespace {
-
-// Whether it meets any sphere, itself among them, that is not smooth to it.
-bool is_rough_sphere(const Composition& composition, std::size_t n) {
-  for (std::size_t other = 0; other < composition.size(); ++other) {
-    if (composition.are_spheres(n, other) && composition.restitution(n, other).is_rough())
-      return true;
-  }
-  return false;
-}
-
-}  // namespace
-
 Composition Scene::composition() const {
   const Restitution everywhere{collisions.epsilon, collisions.beta};
   std::vector<Species> all = species;
@@ -51,21 +39,18 @@ Composition Scene::composition() const {
       if (out[a].fixed && out[b].fixed) out.set_meets(a, b, false);
     }
   }
+  set_q_of_spheres(out);
   std::uint64_t first = 0;
   for (std::size_t n = 0; n < out.size(); ++n) {
     Species each = out[n];
-    const bool is_rough = is_rough_sphere(out, n);
-    if (!is_rough)
-      each.q = 0;
-    else if (each.q == 0)
-      each.q = q_of_homogeneous;
+    const bool is_rough_sphere = each.q > 0;
     each = completed(each, needles.seed, first);
     first += each.count;
     if (each.fixed) each.t_tr = 0;
     if (!each.turns() || each.fixed) each.t_rot = 0;
     if (each.given_inertia && each.has_axis())
       each.k = each.mass * (each.length * each.length) / (2 * *each.given_inertia);
-    if (each.given_inertia && is_rough)
+    if (each.given_inertia && is_rough_sphere)
       each.q = q_of(each.mass, each.diameter, *each.given_inertia);
     out.set_species(n, each);
   }

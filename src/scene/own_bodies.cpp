@@ -205,8 +205,7 @@ Species remembered(const Species& species, std::uint64_t seed, std::uint64_t fir
 
 bool is_inertia_of_sphere(const BodyNumbers& body) {
   const double q = q_of(body.mass, body.diameter, body.inertia);
-  constexpr double rounded = 1 + 1e-12;
-  return q * rounded >= 1e-9 && q <= 2.0 / 3 * rounded;
+  return q >= least_q && q <= greatest_q;
 }
 
 BodyNumbers numbers_of(const Species& species) {

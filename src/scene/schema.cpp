@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include "src/scene/read_value.h"
@@ -65,6 +66,26 @@ std::vector<std::string_view> keys_of(std::string_view section) {
   for (const SceneKey& k : scene_keys())
     if (k.section == section) names.push_back(k.key);
   return names;
+}
+
+// Whether a word is one of the parts of a key, as "collisions" is of collisions_per_needle.
+bool has_part(std::string_view key, std::string_view word) {
+  while (!key.empty()) {
+    const std::size_t end = std::min(key.find_first_of("_."), key.size());
+    if (end == word.size() && edit_distance(key.substr(0, end), word) == 0) return true;
+    key.remove_prefix(std::min(end + 1, key.size()));
+  }
+  return false;
+}
+
+// The key of a section that is most similar to an unknown one, or else those of which it is a part.
+std::vector<std::string_view> meant_keys(std::string_view unknown,
+                                         const std::vector<std::string_view>& known) {
+  if (const auto nearest = nearest_word(unknown, known); !nearest.empty()) return {nearest};
+  std::vector<std::string_view> out;
+  std::ranges::copy_if(known, std::back_inserter(out),
+                       [&](std::string_view key) { return has_part(key, unknown); });
+  return out;
 }
 
 std::string expected_instead_of_section(std::string_view name) {
@@ -135,22 +156,23 @@ std::string expected_instead(const Entry& unknown) {
     return fmt::format("expected a section [{}]", unknown.key);
   if (!unknown.section.empty() && !is_scene_section(unknown.section))
     return expected_instead_of_section(unknown.section);
-  if (is_scene_section(unknown.key)) {
+  const std::vector<std::string_view> names = keys_of(unknown.section);
+  const std::vector<std::string_view> meant = meant_keys(unknown.key, names);
+  const bool may_be_table = std::holds_alternative<std::monostate>(unknown.value.data);
+  if (is_scene_section(unknown.key) && (may_be_table || meant.empty())) {
     return fmt::format(
         "expected [{0}] as a section of its own, or {0}.KEY above the first [section]",
         unknown.key);
   }
-  const std::vector<std::string_view> names = keys_of(unknown.section);
   std::vector<std::string_view> shown;  // without keys of tables in place of which a number may be
   for (const std::string_view name : names) {
     const std::string_view table = name.substr(0, name.find('.'));
     if (table == name || !find_scene_key(unknown.section, table)) shown.push_back(name);
   }
-  const std::string_view nearest = nearest_word(unknown.key, names);
-  std::string suggestion(nearest);
+  std::string suggestion = fmt::format("{}", fmt::join(meant, " or "));
   // If no key of the section is similar, looks for the same key in another section.
   for (const SceneKey& k : scene_keys()) {
-    if (!nearest.empty() || k.key != unknown.key) continue;
+    if (!meant.empty() || k.key != unknown.key) continue;
     suggestion += suggestion.empty() ? "" : " or ";
     suggestion += k.section.empty() ? k.key : fmt::format("{}.{}", k.section, k.key);
   }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "needlework/error.h"
+#include "src/scene/needed_memory.h"
 #include "src/scene/printable.h"
 #include "src/scene/schema.h"
 #include "src/scene/validity.h"
@@ -172,24 +173,30 @@ void adopt_shapes(Scene& scene, const std::set<std::string>& given) {
   }
 }
 
+// How many needles there are in all.
+void adopt_counts(Scene& scene) {
+  if (scene.species.empty()) return;
+  // A file may tell counts that are left out.
+  const bool all_given =
+      scene.initial.file.empty() || scene.species.size() == 1 ||
+      std::ranges::all_of(scene.species, [](const Species& s) { return s.count > 0; });
+  scene.needles.count = 0;
+  for (const Species& each : scene.species) scene.needles.count += all_given ? each.count : 0;
+  const auto place = scene.places.find("species.count");
+  if (place != scene.places.end()) scene.places.emplace("needles.count", place->second);
+}
+
 // Writes what the species say in the form that all readers of scenes know: k instead of the moment
-// of inertia, and how many needles there are in all.
-void adopt_species(Scene& scene, bool is_drawn) {
+// of inertia.
+void adopt_inertias(Scene& scene) {
   if (scene.species.empty()) return;
   const Composition composition = scene.composition();
-  for (std::size_t n = 0; is_drawn && n < composition.size(); ++n) {
+  for (std::size_t n = 0; n < composition.size(); ++n) {
     if (composition[n].sizes) continue;        // each body has its own
     if (!composition[n].has_axis()) continue;  // whose inertia counts where they are rough
     scene.species[n].k = composition[n].k;
     scene.species[n].given_inertia.reset();
   }
-  // A file may tell counts that are left out.
-  const bool all_given =
-      scene.initial.file.empty() || !composition.is_mixture() ||
-      std::ranges::all_of(scene.species, [](const Species& s) { return s.count > 0; });
-  scene.needles.count = all_given ? composition.count() : 0;
-  const auto place = scene.places.find("species.count");
-  if (place != scene.places.end()) scene.places.emplace("needles.count", place->second);
 }
 
 // Whether a key describes the initial state, apart from count and box.
@@ -290,15 +297,11 @@ std::string annotated(std::string_view text, std::span<const Override> overrides
   return result;
 }
 
-}  // namespace
+// A scene to run, or that of a run, which may be read where there is less memory.
+enum class Purpose { run, record };
 
-Scene parse_scene(std::string_view text, std::string_view name,
-                  std::span<const std::string> overrides, Provided provided) {
-  return parse_overridden_scene(text, name, of_options(overrides), provided);
-}
-
-Scene parse_overridden_scene(std::string_view text, std::string_view name,
-                             std::span<const Override> overrides, Provided provided) {
+Scene parsed(std::string_view text, std::string_view name, std::span<const Override> overrides,
+             Provided provided, Purpose purpose) {
   if (text.size() > max_scene_bytes)
     throw InputError(fmt::format("{}: too large: expected a scene of at most {} bytes",
                                  printable(name), max_scene_bytes));
@@ -330,6 +333,11 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
   }
   const std::set<std::string> given(in_order.begin(), in_order.end());
   adopt_shapes(scene, given);
+  adopt_counts(scene);
+  // Before the rules, which look at every body that is drawn: of some billions for minutes.
+  const auto is_drawn_each = [](const Species& s) { return s.drawn != DrawnSizes{}; };
+  if (purpose == Purpose::run && std::ranges::any_of(scene.species, is_drawn_each))
+    require_memory(scene);
   const SceneOrigin origin{.name = name, .given = in_order};
   // A state that is given may say what the scene does not: see adopt_state().
   const bool is_drawn = !provided.state && scene.initial.file.empty();
@@ -342,12 +350,10 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
   if (is_drawn) known = known | Aspect::room | Aspect::start;
   if (is_drawn || !scene.species.empty()) known = known | Aspect::pairs;
   require_rules(scene, known, origin);
-  adopt_species(scene, is_drawn);
+  if (is_drawn) adopt_inertias(scene);
   scene.text = annotated(text, overrides);
   return scene;
 }
-
-namespace {
 
 void remove_end(Scene::Until& until, std::string_view key) {
   auto& [time, collisions_per_needle, energy_ratio, wall_s] = until;
@@ -377,8 +383,18 @@ std::vector<std::string> recorded_overrides(const std::string& text) {
 
 }  // namespace
 
+Scene parse_scene(std::string_view text, std::string_view name,
+                  std::span<const std::string> overrides, Provided provided) {
+  return parse_overridden_scene(text, name, of_options(overrides), provided);
+}
+
+Scene parse_overridden_scene(std::string_view text, std::string_view name,
+                             std::span<const Override> overrides, Provided provided) {
+  return parsed(text, name, overrides, provided, Purpose::run);
+}
+
 Scene parse_recorded_scene(const std::string& text, std::string_view name) {
-  return parse_scene(text, name, recorded_overrides(text), {.end = true});
+  return parsed(text, name, of_options(recorded_overrides(text)), {.end = true}, Purpose::record);
 }
 
 void override_until(Scene& scene, std::span<const std::string> overrides) {

@@ -317,6 +317,9 @@ TEST_F(BenchCommand, ListsItsSubsets) {
         "storage", "matrix", "cloud", "effects", "hulls", "mixtures"}) {
     EXPECT_TRUE(contains(output_of("bench --list"), std::string(subset) + " ")) << subset;
   }
+  // What roughness costs is seen beside the same spheres without it.
+  EXPECT_TRUE(contains(output_of("bench --list"), {"  spheres/auto/", "  rough-spheres/auto/",
+                                                   "  rough-spheres/linked-lists/"}));
   EXPECT_TRUE(contains(run("bench --help").out, "Whitney"));
 }
 

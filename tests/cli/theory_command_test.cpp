@@ -89,6 +89,33 @@ TEST_F(TheoryCommand, CountsTauInTheThermalSpeed) {
               json_of("theory cold.toml" + single + "2")["tau"][0].get<double>(), 1e-12);
 }
 
+// At the density of the partners of each sphere of a scene.
+TEST_F(TheoryCommand, FollowsRoughSpheresWithoutAScene) {
+  write("hollow.toml",
+        "needles.box = 10\ncollisions = { epsilon = 0.9, beta = 0.5, tc_relative = 1e-3 }\n"
+        "until.time = 1\n[[species]]\nname = \"hollow\"\ncount = 101\nlength = 0\n"
+        "diameter = 1\ninertia = 0.16666666666666666\nt_rot = 0.5\n");
+  const auto of_scene = json_of("theory --json --time 0 --time 7 hollow.toml");
+  const std::string spheres = "theory --epsilon 0.9 --beta 0.5 --t-rot0 0.5";
+  const auto json =
+      json_of(spheres + " --q 0.6666666666666667 --density 0.1 --time 7 --time 0 --json");
+  EXPECT_NEAR(json["c"].get<double>(), of_scene["c"].get<double>(), 1e-12);
+  EXPECT_FALSE(json.contains("k") || json.contains("k_star"));
+  EXPECT_NEAR(json["tau"][0].get<double>(), 2.0 / 3 * std::sqrt(M_PI) * 0.1 * 7, 1e-12);
+  for (const char* name : {"t_tr", "t_rot", "energy"}) {
+    for (const int n : {0, 1}) {
+      EXPECT_NEAR(json[name][n].get<double>(), of_scene[name][1 - n].get<double>(), 1e-7) << name;
+    }
+  }
+  EXPECT_NEAR(json["energy"][1].get<double>(), 1.5 * (1 + 0.5), 1e-12);
+  const double per_time = of_scene["collisions_per_time"]["hollow-hollow"].get<double>();
+  const auto soon = json_of(spheres + " --q 0.5 --density 0.1 --time 1e-6 --json");
+  EXPECT_NEAR(soon["collisions_per_needle"][0].get<double>(), 2 * per_time / 101 * 1e-6, 1e-11);
+  EXPECT_TRUE(
+      contains(output_of(spheres + " --q 0.4 --tau 2"),
+               {"epsilon 0.9, beta 0.5, q 0.4\n", "tends to c = ", "\n               2  "}));
+}
+
 TEST_F(TheoryCommand, StartsWithEqualTemperatures) {
   const auto json = run("theory --epsilon 0.8 --k 6 --tau 0 --json").json();
   EXPECT_EQ(json["t_tr"][0], 1.0);
@@ -231,6 +258,22 @@ TEST_F(TheoryCommand, NamesFlagValueAndExpectation) {
         Case{"--epsilon 0.8 --k 6 --boltzmann encounters --tc 0",
              "contact_time = 0: expected a number in [1e-9, 1e100], as encounters of this gas may "
              "collapse"},
+        Case{"--epsilon 0.8 --beta 0 --q 0.7",
+             "--q 0.7: expected a number in [1e-9, 2/3], at which all mass is at the surface"},
+        Case{"--epsilon 0.8 --beta 0 --q 0.4 --k 6",
+             "--q 0.4: expected either --q or --k, not both: spheres or needles"},
+        Case{"--epsilon 0.8 --q 0.4",
+             "--q 0.4: expected --beta above -1 beside it, as nothing turns smooth spheres"},
+        Case{"--epsilon 0.8 --beta 0 --q 0.4 --boltzmann single",
+             "--q 0.4: expected none beside --boltzmann, which simulates thin needles"},
+        Case{"--epsilon 0.8 --beta 0 --q 0.4 small.toml",
+             "--q 0.4: expected none beside a scene, which says what its bodies are"},
+        Case{"--epsilon 0.8 --beta 0 --q 0.4 --density 2",
+             "--density 2: expected a number in [0, 2^1/2], as spheres of diameter 1 are never "
+             "denser"},
+        Case{"--beta 0 --q 0.4",
+             "--epsilon is missing: expected a number in [0, 1], or a scene (see needlework theory "
+             "--help)"},
         Case{"--epsilon 0.8 --k 6 --t-rot0 inf",
              "--t-rot0 inf: expected a finite number, 0 or more"}}) {
     const Outcome outcome = run(std::string("theory ") + bad.arguments);

@@ -50,6 +50,12 @@ TEST_F(Usage, WhatThisMachineLacksIsNamedWithItsLine) {
   };
   expect_refusal("[needles]\nbox = 1e4\ncount = 4_000_000_000\n[until]\ntime = 1\n",
                  "3: needles.count = 4_000_000_000: expected fewer: ");
+  // Before all of them are drawn.
+  const std::string drawn =
+      "[[species]]\nname = 'a'\nmass.density = 1\ncount = 2_000_000_000\n"
+      "length = {distribution = 'gamma', mean = 1, width = 0.3}\n";
+  expect_refusal("needles.box = 1e4\nuntil.time = 1\n" + drawn,
+                 "6: species.count = 2_000_000_000: expected fewer: ");
   const std::string rest = "needles = {count = 5, box = 5}\nuntil.time = 1\n[engine]\n";
   expect_refusal(rest + "threads = 2\nqueue = 'bucket'\n",
                  "4: engine.threads = 2: expected 1 with search ");

@@ -1,10 +1,11 @@
 """Several species: totals, states, files and theory by species."""
 
+import json
 import tempfile
 import unittest
 from pathlib import Path
 
-from support import InFolder, require
+from support import InFolder, printed_by, require
 
 require("h5py")
 import needlework  # noqa: E402
@@ -248,6 +249,47 @@ class Theory(InFolder):
                 np.testing.assert_allclose(found.diameter, given["diameter"])
                 np.testing.assert_allclose(theory.mixture_rates(found, 1, 1).collisions,
                                            expected, rtol=1e-12)
+
+    # Hollow ones beside homogeneous ones, and alone.
+    HOLLOW = {"name": "hollow", "count": 120, "length": 0, "diameter": 0.8, "mass": 0.5,
+              "inertia": 0.5 * 0.8**2 / 6, "t_rot": 0.5}
+    SOLID = {"name": "solid", "count": 80, "length": 0, "diameter": 0.6}
+
+    def test_rough_spheres_have_the_moments_of_inertia_of_the_gas(self):
+        for species, q in (([self.HOLLOW, self.SOLID], [2 / 3, 0.4]), ([self.HOLLOW], 2 / 3)):
+            file, scene = (self.folder / f"{len(species)}.{ending}" for ending in ("h5", "toml"))
+            with Simulation({"needles": {"box": 8}, "species": species,
+                             "collisions": {"epsilon": 0.9, "beta": 0.3, "tc_relative": 1e-3},
+                             "until": {"time": 1}, "output": {"file": str(file)}}) as sim:
+                gas = sim.gas
+                scene.write_text(sim.scene)
+            with read(file) as run:
+                recorded = run.gas
+            by_program = json.loads(printed_by("theory", scene, "--json", "--time", 2, "--time", 9))
+            of_each = [by_program["species"][each["name"]] for each in species]
+            t_tr, t_rot = np.ones(len(species)), [each.get("t_rot", 1) for each in species]
+            for its in (gas, recorded):
+                np.testing.assert_allclose(its.q, q, rtol=1e-12)
+                rates = theory.mixture_rates(its, t_tr, t_rot)
+                curve = theory.mixture_cooling(its, t_tr, t_rot, [2, 9])
+                for n, each in enumerate(species):
+                    for name in ("t_tr", "t_rot"):
+                        self.assertAlmostEqual(rates[name][n],
+                                               by_program[f"{name}_per_time"][each["name"]], 12)
+                        np.testing.assert_allclose(curve[name][:, n], of_each[n][name], rtol=1e-9)
+                np.testing.assert_allclose(curve.energy, by_program["energy"], rtol=1e-9)
+            homogeneous = theory.mixture_rates({**gas, "q": 0}, t_tr, t_rot)
+            self.assertLess(homogeneous.t_tr[0], 1.01 * rates.t_tr[0])  # more is lost to the spins
+            np.testing.assert_array_equal(
+                theory.mixture_rates({**gas, "q": 0.4}, t_tr, t_rot).t_tr, homogeneous.t_tr)
+        self.assertNotIn("q", Simulation({"needles": {"box": 8}, "species": [self.HOLLOW]}).gas)
+        with self.assertRaisesRegex(InputError, "q = 0.7: expected a number from 1e-9 to 2/3"):
+            theory.mixture_rates({**gas, "q": 0.7}, 1, 1)
+
+    def test_smooth_spheres_have_no_energy_of_rotation(self):
+        spheres = {"counts": 100, "box": 8, "length": 0, "diameter": 1, "epsilon": 0.9}
+        self.assertEqual(theory.mixture_cooling(spheres, 1, 1, 0).energy, 1.5)
+        self.assertEqual(theory.mixture_cooling({**spheres, "beta": 0}, 1, 1, 0).energy, 3)
 
     def test_a_diameter_makes_rods(self):
         for length, diameter, rate in ((0, 1, 7.0898154), (5, 1, 91.75811), (2.5, 0.5, 22.939528)):

@@ -53,6 +53,23 @@ class Pictures(InFolder):
         np.testing.assert_array_equal(t_rot.get_ydata(), self.recording.series.t_rot[1:])
         self.assertEqual(len(axes.get_legend().get_texts()), 3)
 
+    def test_rough_spheres_have_the_energy_of_their_rotation(self):
+        path = self.folder / "spheres.h5"
+        sphere = {"length": 0, "diameter": 1.0}
+        with Simulation({"needles": {"box": 9.0},
+                         "collisions": {"epsilon": 0.9, "beta": 0, "tc_relative": 1e-3},
+                         "species": [{"name": "one", "count": 60, **sphere},
+                                     {"name": "other", "count": 60, **sphere}],
+                         "output": {"file": str(path)}}) as sim:
+            sim.run(time=2)
+        with read(path) as recording:
+            all_of, _, of_one, _, of_other, _ = plot.cooling(recording).lines
+            one, ratio = plot.temperatures(recording), plot.temperature_ratio(recording)
+        for line in (of_one, of_other):  # alike
+            np.testing.assert_allclose(line.get_ydata(), all_of.get_ydata(), rtol=0.05)
+        for axes in (one, ratio):
+            self.assertTrue(np.all(np.isfinite(axes.lines[0].get_ydata())))
+
     def test_spheres_have_no_ratio_of_temperatures(self):
         sim = Simulation({"needles": {"box": 6.0},
                           "species": [{"name": "balls", "count": 20, "length": 0,

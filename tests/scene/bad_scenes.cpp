@@ -171,6 +171,19 @@ TEST(BadScene, UnknownKeyComesWithSuggestion) {
                                          "walls.epsilon?"},
       {"[needles]\nfile = 'a'\n", "s.toml: line 2: needles.file = 'a': " + of_needles +
                                       ", did you mean initial.file or output.file?"},
+      // A key of the same section, rather than a section of the same name.
+      {"[until]\ncollisions = 5\n",
+       "s.toml: line 2: until.collisions = 5: expected one of time, collisions_per_needle, "
+       "energy_ratio, wall_s, did you mean collisions_per_needle?"},
+      {"[until]\ncollisions.epsilon = 0.5\n",
+       "s.toml: line 2: until.collisions = {...}: expected [collisions] as a section of its own, "
+       "or "
+       "collisions.KEY above the first [section]"},
+      {"[until]\ndriving = 5\n",
+       "s.toml: line 2: until.driving = 5: expected [driving] as a section of its own, or "
+       "driving.KEY above the first [section]"},
+      {"[engine]\nradius = 2\n",
+       "s.toml: line 2: engine.radius = 2: " + of_engine + ", did you mean capsule_radius?"},
       {"[needles]\ncount = 5\nuntil.time = 1\n",
        "s.toml: line 3: needles.until = {...}: expected [until] as a section of its own, or "
        "until.KEY above the first [section]"},

@@ -1,9 +1,8 @@
-#include "src/runs/amount_text.h"
+#include "src/runs/duration_text.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
 
 namespace needlework::runs {
 
@@ -16,16 +15,6 @@ std::string duration_text(double seconds) {
   if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
   if (whole < 48 * 3600) return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
   return fmt::format("{} d {} h", whole / 86400, whole / 3600 % 24);
-}
-
-std::string bytes_text(double bytes) {
-  static constexpr const char* units[] = {"bytes", "kB", "MB", "GB", "TB"};
-  std::size_t unit = 0;
-  while (bytes >= 999.5 && unit + 1 < std::size(units)) {
-    bytes /= 1000;
-    ++unit;
-  }
-  return fmt::format("{:.3g} {}", bytes, units[unit]);
 }
 
 }  // namespace needlework::runs
