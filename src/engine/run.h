@@ -106,7 +106,9 @@ class Run {
                      : Time::never();
   }
   /// Whether the velocities of all needles are replaced then.
-  bool replaces_velocities() const { return kicks || (growing && growing->parameters().cools); }
+  bool replaces_velocities() const {
+    return kicks || (growing && growing->parameters().cools && !growing->is_looking());
+  }
   /// Contacts need to be searched up to this time: the first one after an instant at which
   /// velocities are replaced, or after that at which bodies have their largest sizes, beyond which
   /// searches know no contact. Time::never() without either.

@@ -150,7 +150,7 @@ TEST_F(FalseReportOfGrowingHits, IsSeen) {
   EXPECT_EQ(wrong([](Collision& c) { c.arm_first *= 1 + 1e-12; }), 1u);
   EXPECT_EQ(wrong([](Collision& c) { c.normal_velocity += 1e-12; }), 1u);
   EXPECT_EQ(wrong([](Collision& c) { c.impulse[2] += 1e-12; }), 1u);
-  EXPECT_EQ(wrong([](Collision& c) { c.energy_change += 1e-11; }), 1u);
+  EXPECT_EQ(wrong([](Collision& c) { c.energy_change += 1e-10; }), 1u);
   EXPECT_GE(wrong([](Collision& c) { c.after[0].velocity[2] += 1e-12; }), 1u);
   RecordedRun other = run;
   other.leave_out(n);

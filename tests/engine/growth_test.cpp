@@ -270,6 +270,29 @@ TEST(Growth, EndsWhereBodiesJam) {
   EXPECT_LT(run.growth()->packing_fraction, 0.7);
 }
 
+// The first collisions of a packing come far sooner than those of any gas that is no packing: they
+// are cooled in time all the same.
+TEST(Growth, GoesOnFromAPacking) {
+  const auto packed = [](double pressure, double rate) {
+    Scene scene = scene_of(0, 5);
+    scene.species = {{.name = "spheres", .count = 100, .length = 0, .diameter = 0.8}};
+    scene.driving.growth = Scene::Growth{};
+    scene.driving.growth->rate = rate;
+    scene.driving.growth->until_pressure = pressure;
+    scene.until = until_collisions(5000);
+    return scene;
+  };
+  Scene scene = packed(1e5, 0.03);
+  Simulation first(scene);
+  ASSERT_EQ(first.advance(scene.until), Stop::pressure);
+  const State state = first.copy();
+  scene = packed(1e7, 0.01);
+  scene.species[0].diameter *= *state.scale;
+  Simulation second(scene, state);
+  ASSERT_EQ(second.advance(scene.until), Stop::pressure);
+  EXPECT_LT(second.totals().t_tr, 2);
+}
+
 // What is drawn by growth.
 TEST(Compress, FillsSpaceWhereNothingElseDoes) {
   Scene scene = rods_of(40, 0, 0.6, 3);

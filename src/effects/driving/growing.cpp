@@ -9,6 +9,11 @@ void Growing::measure(const Clock& clock, Time now, const Sums& sums, double bod
   constexpr double most_change = 8;
   const double counted = static_cast<double>(sums.collisions - then_.collisions);
   const double wanted = parameters_.collisions;
+  if (is_looking() && counted * most_change < wanted) {
+    step_ *= most_change;
+    next_ = clock.add({}, step_);
+    return;
+  }
   step_ *= std::clamp(wanted / std::max(counted, 0.5), 1 / most_change, most_change);
   next_ = clock.add(now, step_);
   then_ = sums;

@@ -12,7 +12,8 @@ namespace needlework {
 /// Bodies that grow heat a gas. Its velocities are scaled back to the temperature at the start
 /// after as many collisions as are asked for, at instants that follow from how many there have been
 /// between the last two: so they depend on the trajectory alone, however it is computed. There the
-/// pressure is measured, too.
+/// pressure is measured, too. How long the first collisions take is not known: until there are
+/// enough of them, instants are looks, each at eight times the time of the one before.
 class Growing {
  public:
   struct Parameters {
@@ -45,6 +46,7 @@ class Growing {
   /// P V / (N T) over the last collisions that were counted; 0: not measured yet.
   double pressure() const { return pressure_; }
   bool is_over() const { return pressure_ >= parameters_.most_pressure; }
+  bool is_looking() const { return then_.collisions == 0; }
 
   /// To be called at the instant next(), for so many bodies. Finds the one after it.
   void measure(const Clock& clock, Time now, const Sums& sums, double bodies);
@@ -56,11 +58,12 @@ class Growing {
   }
 
  private:
-  // Estimates of collision rates of dense gases are too low.
-  static constexpr double first_share = 0x1p-6;
+  // Estimates of collision rates are too low by the pressure, which is 1e10 in a packing.
+  static constexpr double first_share = 0x1p-40;
 
   Parameters parameters_;
-  double step_ = 0;  ///< between the last instant and the next [time]
+  double step_ =
+      0;  ///< between the last instant and the next; that of a look from the start [time]
   Time next_ = Time::never();
   double pressure_ = 0;
   Sums then_;      ///< at the last instant
