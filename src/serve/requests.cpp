@@ -85,6 +85,7 @@ std::optional<State> state_in(const Json& request) {
   const bool orientation = read(vectors_in(request, "orientation"), state.orientation);
   const bool velocity = read(vectors_in(request, "velocity"), state.velocity);
   const bool angular_velocity =
+  const bool peculiar = read(vectors_in(request, "peculiar_velocity"), state.peculiar_velocity);
       read(vectors_in(request, "angular_velocity"), state.angular_velocity);
   const bool image = read(images_in(request, "image"), state.image);
   const bool id = read(ids_in(request, "needle_id"), state.id);
@@ -93,22 +94,27 @@ std::optional<State> state_in(const Json& request) {
   const bool box = read(three_in(request, "box"), state.box);
   const bool low = read(three_in(request, "low"), state.low);
   const auto own = columns_of(state.own_bodies);
+  const bool slide = read(number_in(request, "slide"), state.slide);
+  const bool shear_rate = read(number_in(request, "shear_rate"), state.shear_rate);
   const bool has_own =
       std::ranges::any_of(own, [&](const auto& column) { return request.contains(column.first); });
-  if (!(position || orientation || velocity || angular_velocity || image || id || species ||
-        bodies || box || low || has_own)) {
+  if (!(position || orientation || velocity || peculiar || angular_velocity || image || id ||
+        species || bodies || box || low || slide || shear_rate || has_own)) {
     return std::nullopt;
   }
   if (!position || !orientation) {
     throw RequestError("position, orientation: expected both, where a state is given");
   }
   for (const auto& [field, column] : own) read(numbers_in(request, field, state.size()), *column);
-  if (!velocity) state.velocity.resize(state.size());
+  if (velocity && peculiar) throw RequestError("velocity, peculiar_velocity: expected one of them");
+  if (!velocity && !peculiar) state.velocity.resize(state.size());
   if (!angular_velocity) state.angular_velocity.resize(state.size());
   // A state takes no rows of these for absent ones.
-  for (const auto& [field, given, rows] : {std::tuple("image", image, state.image.size()),
-                                           {"needle_id", id, state.id.size()},
-                                           {"species", species, state.species.size()}}) {
+  for (const auto& [field, given, rows] :
+       {std::tuple("image", image, state.image.size()),
+        {"peculiar_velocity", peculiar, state.peculiar_velocity.size()},
+        {"needle_id", id, state.id.size()},
+        {"species", species, state.species.size()}}) {
     if (!given || rows == state.size()) continue;
     throw RequestError(fmt::format("{}: {} rows: expected {}", field, rows, state.size()));
   }
@@ -266,9 +272,26 @@ runs::PreparedRun& Requests::run_of(const Json& request) {
 }
 
 Json Requests::create(const Json& request, const Connection&) {
-  require_only(request, {"scene", "path", "force", "position", "orientation", "velocity",
-                         "angular_velocity", "image", "needle_id", "species", "bodies", "length",
-                         "diameter", "mass", "inertia", "box", "low"});
+  require_only(request, {"scene",
+                         "path",
+                         "force",
+                         "position",
+                         "orientation",
+                         "velocity",
+                         "angular_velocity",
+                         "image",
+                         "needle_id",
+                         "species",
+                         "bodies",
+                         "length",
+                         "diameter",
+                         "mass",
+                         "inertia",
+                         "box",
+                         "low",
+                         "peculiar_velocity",
+                         "slide",
+                         "shear_rate"});
   const bool force = flag_in(request, "force");
   runs::LoadedScene loaded = scene_in(request);
   runs::require_writable_output(loaded.scene, force, text_in(request, "path").value_or(""),
@@ -332,10 +355,23 @@ Json Requests::state(const Json& request, const Connection&) {
     runs::write_state(run.simulation(), run.scene(), run.data(), *file, flag_in(request, "force"));
     return {{"file", *file}};
   }
-  static constexpr std::array<std::string_view, 14> arrays{
-      "position", "velocity", "orientation", "angular_velocity", "image", "needle_id",
-      "species",  "bodies",   "length",      "diameter",         "mass",  "inertia",
-      "box",      "low"};
+  static constexpr std::array<std::string_view, 17> arrays{"position",
+                                                           "velocity",
+                                                           "orientation",
+                                                           "angular_velocity",
+                                                           "image",
+                                                           "needle_id",
+                                                           "species",
+                                                           "bodies",
+                                                           "length",
+                                                           "diameter",
+                                                           "mass",
+                                                           "inertia",
+                                                           "box",
+                                                           "low",
+                                                           "peculiar_velocity",
+                                                           "slide",
+                                                           "shear_rate"};
   const auto wanted = names_in(request, "arrays", arrays);
   State state = run.simulation().copy();
   state.species.resize(state.size());  // of one species all are 0
@@ -352,6 +388,11 @@ Json Requests::state(const Json& request, const Connection&) {
   add("angular_velocity", state.angular_velocity);
   add("image", state.image);
   add("needle_id", state.id);
+  // Without a flow, velocities are beside none.
+  if (wanted) {
+    const bool flows = !state.peculiar_velocity.empty();
+    add("peculiar_velocity", flows ? state.peculiar_velocity : state.velocity);
+  }
   add("species", state.species);
   // All of them make a simulation of the same needles, whose bodies differ only where these do.
   const Composition& composition = run.simulation().composition();
@@ -366,6 +407,10 @@ Json Requests::state(const Json& request, const Connection&) {
   // Where walls do not move, the box is that of the scene.
   const bool moves = run.scene().has_moving_walls();
   for (const auto& [name, value] : {std::pair("box", &state.box), {"low", &state.low}})
+  const bool is_sheared = run.scene().shear.has_value();
+  for (const auto& [name, value] :
+       {std::pair("slide", state.slide), {"shear_rate", state.shear_rate}})
+    if (is_sheared ? is_wanted(name) : wanted && is_wanted(name)) answer[name] = value;
     if (moves ? is_wanted(name) : wanted && is_wanted(name)) answer[name] = numbers(*value);
   if (is_wanted("bodies"))
     answer["bodies"] = json_of(bodies_of(composition, state.scale.value_or(1)));

@@ -11,10 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "needlework/error.h"
 #include "needlework/h5md.h"
 #include "needlework/parse.h"
 #include "needlework/simulation.h"
 #include "src/json/base64.h"
+#include "src/serve/requests.h"
 #include "src/serve/server.h"
 #include "tests/support/contains.h"
 #include "tests/support/temporary_folder.h"
@@ -26,7 +28,6 @@ using json::base64_of;
 using json::bytes_of;
 using json::rows_of;
 using json::text_of;
-using Json = nlohmann::ordered_json;
 
 const std::string scene_text =
     "[needles]\ncount = 60\nbox = 5\n[collisions]\nepsilon = 0.9\n[until]\ncollisions_per_needle = "
@@ -417,6 +418,61 @@ TEST(Serve, CarriesDataOfTheFrontEnd) {
       {"bytes", {{"bytes", "AP8="}}}, {"none", {{"json", none}}}, {"notes", {{"json", notes}}}};
   EXPECT_EQ(second[1]["data"], expected) << second[1];
   EXPECT_EQ(second[2]["bytes"], "AP8=");
+}
+
+// Rows of boxes have slid, and velocities are those in the laboratory.
+TEST(Serve, GoesOnFromAShearedState) {
+  const std::string sheared =
+      "collisions = { epsilon = 0.9, tc_relative = 1e-3 }\nshear.rate = 1.5\n";
+  auto first = answers_to(
+      {{{"do", "create"}, {"scene", "needles = { count = 60, box = 4 }\n" + sheared}},
+       {{"do", "advance"}, {"simulation", 1}, {"time", 1}},
+       {{"do", "state"}, {"simulation", 1}},
+       {{"do", "state"}, {"simulation", 1}, {"arrays", {"peculiar_velocity", "slide"}}}});
+  Json& state = first[2];
+  EXPECT_NEAR(state["slide"].get<double>(), std::fmod(1.5 * 4, 4), 1e-9);
+  EXPECT_EQ(state["shear_rate"], 1.5);
+  EXPECT_FALSE(state.contains("peculiar_velocity")) << "but where it is asked for";
+  EXPECT_EQ(first[3]["slide"], state["slide"]);
+  EXPECT_FALSE(first[3].contains("shear_rate"));
+  Json again = state;
+  for (const char* field : {"ok", "time", "needles"}) again.erase(field);
+  again["do"] = "create";
+  again["scene"] = "needles.box = 4\n" + sheared;
+  Json beside = again, both = again, still = again, few = again;
+  beside.erase("velocity");
+  beside.erase("shear_rate");
+  beside["peculiar_velocity"] = first[3]["peculiar_velocity"];
+  both["peculiar_velocity"] = first[3]["peculiar_velocity"];
+  still["scene"] = "needles.box = 4\n";
+  few.erase("velocity");
+  few["peculiar_velocity"] = text_of(std::vector<std::array<double, 3>>(3));
+  auto second = answers_to({again,
+                            {{"do", "state"}, {"simulation", 1}},
+                            {{"do", "totals"}, {"simulation", 1}},
+                            beside,
+                            {{"do", "totals"}, {"simulation", 2}},
+                            both,
+                            still,
+                            few,
+                            create(),
+                            {{"do", "state"}, {"simulation", 3}},
+                            {{"do", "state"},
+                             {"simulation", 3},
+                             {"arrays", {"slide", "velocity", "peculiar_velocity"}}}});
+  ASSERT_EQ(second[0]["ok"], true) << second[0];
+  for (const char* field : {"slide", "shear_rate", "position", "velocity", "image"})
+    EXPECT_EQ(second[1][field], state[field]) << field;
+  EXPECT_NEAR(second[2]["energy"].get<double>(), first[1]["energy"].get<double>(), 1e-12);
+  ASSERT_EQ(second[3]["ok"], true) << second[3];
+  EXPECT_NEAR(second[4]["energy"].get<double>(), first[1]["energy"].get<double>(), 1e-12);
+  EXPECT_EQ(second[5]["message"], "velocity, peculiar_velocity: expected one of them");
+  EXPECT_TRUE(
+      test::contains(second[6]["message"].get<std::string>(), "expected a scene with [shear]"));
+  EXPECT_EQ(second[7]["message"], "peculiar_velocity: 3 rows: expected 60");
+  EXPECT_FALSE(second[9].contains("slide"));
+  EXPECT_EQ(second[10]["slide"], 0);
+  EXPECT_EQ(second[10]["peculiar_velocity"], second[10]["velocity"]);
 }
 
 TEST(Serve, WritesStatesAndOutput) {
