@@ -264,8 +264,10 @@ void Run::checkpoint() {
 
 void Run::close() {
   if (closed_) return;
-  work([&] { run_->close(); });
-  closed_ = true;
+  work([&] {
+    closed_ = true;  // also where that fails
+    run_->close();
+  });
 }
 
 py::tuple Run::state() {

@@ -487,8 +487,10 @@ Json Requests::checkpoint(const Json& request, const Connection&) {
 
 Json Requests::close(const Json& request, const Connection&) {
   require_only(request, {"simulation"});
-  run_of(request).close();
-  runs_.erase(static_cast<std::int64_t>(*count_in(request, "simulation")));
+  static_cast<void>(run_of(request));
+  // Gone also where its file cannot be completed.
+  const auto closed = runs_.extract(static_cast<std::int64_t>(*count_in(request, "simulation")));
+  closed.mapped()->close();
   return Json::object();
 }
 

@@ -475,6 +475,28 @@ TEST(Serve, GoesOnFromAShearedState) {
   EXPECT_EQ(second[10]["peculiar_velocity"], second[10]["velocity"]);
 }
 
+// Whoever cannot complete a file tells so once, and leaves it to others.
+TEST(Serve, LetsASimulationGoWhoseFileCannotBeCompleted) {
+  const test::TemporaryFolder parent;
+  const std::string folder = parent.path() / "there", away = parent.path() / "away",
+                    output = folder + "/run.h5";
+  std::filesystem::create_directory(folder);
+  Requests requests;
+  const Connection connection{.interrupted = [] { return false; }, .notify = [](const Json&) {}};
+  const auto ask = [&](const Json& request) { return requests.answer(request, connection); };
+  Json run = create();
+  run["scene"] = scene_text + "[output]\nfile = '" + output + "'\n";
+  ask(run);
+  ask({{"do", "advance"}, {"simulation", 1u}, {"collisions", 50u}});
+  ask({{"do", "checkpoint"}, {"simulation", 1u}});
+  std::filesystem::rename(folder, away);
+  EXPECT_THROW(ask({{"do", "close"}, {"simulation", 1u}}), IoError);
+  EXPECT_THROW(ask({{"do", "close"}, {"simulation", 1u}}), RequestError) << "it is gone";
+  std::filesystem::rename(away, folder);
+  EXPECT_EQ(ask({{"do", "resume"}, {"file", output}})["simulation"], 2);
+  EXPECT_EQ(ask({{"do", "run_until"}, {"simulation", 2u}})["trajectory_hash"], hash_of_whole_run());
+}
+
 TEST(Serve, WritesStatesAndOutput) {
   const test::TemporaryFolder folder;
   const std::string state = folder.path() / "state.h5", output = folder.path() / "run.h5";
