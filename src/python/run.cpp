@@ -109,13 +109,6 @@ void add_species(py::dict& out, const Composition& composition) {
   if (!composition.all_meet()) out["meet"] = read_only(meet.data(), {size, size});
 }
 
-runs::Limits of_scene(const Scene::Until& until) {
-  return {.time = until.time,
-          .collisions_per_needle = until.collisions_per_needle,
-          .energy_ratio = until.energy_ratio,
-          .wall_s = until.wall_s};
-}
-
 }  // namespace
 
 Run::Run(const SceneSource& source, std::optional<State> state, bool force) {
@@ -184,9 +177,7 @@ std::string Run::drive(const Scene::Until& until, const py::object& show) {
 std::string Run::run(const runs::Limits& limits, const py::object& show) {
   require_idle();
   require_open();
-  return drive(
-      runs::from_start(limits.empty() ? of_scene(run_->scene().until) : limits, run_->simulation()),
-      show);
+  return drive(runs::from_start_or_scene(limits, run_->scene(), run_->simulation()), show);
 }
 
 std::string Run::advance(const runs::Limits& limits, const py::object& show) {

@@ -334,13 +334,10 @@ Json Requests::run_until(const Json& request, const Connection& connection) {
   require_only(request, {"simulation", "time", "collisions", "collisions_per_needle",
                          "energy_ratio", "wall_s", "progress_s", "batch", "fields", "happenings"});
   runs::PreparedRun& run = run_of(request);
-  const runs::Limits limits = limits_in(request);
-  const Scene::Until& of_scene = run.scene().until;
-  const bool scene_ends =
-      of_scene.time || of_scene.collisions_per_needle || of_scene.energy_ratio || of_scene.wall_s;
-  const bool as_scene_says = limits.empty() && scene_ends;
-  return drive(run, as_scene_says ? of_scene : counted(limits, run, runs::from_start), request,
-               connection);
+  const auto count = [&](const runs::Limits& limits, const Simulation& simulation) {
+    return runs::from_start_or_scene(limits, run.scene(), simulation);
+  };
+  return drive(run, counted(limits_in(request), run, count), request, connection);
 }
 
 Json Requests::totals(const Json& request, const Connection&) {

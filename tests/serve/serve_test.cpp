@@ -497,6 +497,27 @@ TEST(Serve, LetsASimulationGoWhoseFileCannotBeCompleted) {
   EXPECT_EQ(ask({{"do", "run_until"}, {"simulation", 2u}})["trajectory_hash"], hash_of_whole_run());
 }
 
+TEST(Serve, EndsWhereTheSceneSaysHowFarBodiesGrow) {
+  const std::string growth = "driving.growth = { rate = 0.1, until_packing = 0.15 }\n";
+  auto answers = answers_to(
+      {{{"do", "create"},
+        {"scene", "needles = { count = 60, box = 6, diameter = 0.3 }\n" + growth}},
+       {{"do", "run_until"}, {"simulation", 1}},
+       create_elastic(),
+       {{"do", "run_until"}, {"simulation", 2}},
+       {{"do", "create"}, {"scene", "needles = { count = 60, box = 6, diameter = 0.2 }\n"}},
+       {{"do", "state"}, {"simulation", 3}}});
+  EXPECT_EQ(answers[1]["stop"], "grown") << answers[1];
+  EXPECT_EQ(answers[3]["code"], 2) << answers[3];
+  // Sizes that a front end gives grow, too.
+  Json own{{"do", "create"}, {"scene", "needles.box = 6\n" + growth}, {"diameter", 0.2}};
+  for (const char* name : {"position", "orientation", "velocity", "angular_velocity"})
+    own[name] = answers[5][name];
+  auto second = answers_to({own, {{"do", "run_until"}, {"simulation", 1}}});
+  ASSERT_EQ(second[0]["ok"], true) << second[0];
+  EXPECT_EQ(second[1]["stop"], "grown") << second[1];
+}
+
 TEST(Serve, WritesStatesAndOutput) {
   const test::TemporaryFolder folder;
   const std::string state = folder.path() / "state.h5", output = folder.path() / "run.h5";
