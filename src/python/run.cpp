@@ -377,7 +377,7 @@ py::object Run::flow() {
 py::tuple Run::box() {
   require_idle();
   const std::array<double, 3> box = run_->simulation().box(), low = run_->simulation().low();
-  return py::make_tuple(Column(3, box.data()), Column(3, low.data()));
+  return py::make_tuple(read_only(box.data(), {3}), read_only(low.data(), {3}));
 }
 
 py::object Run::stress() {
@@ -425,7 +425,7 @@ py::dict Run::facts() {
   out["text"] = text(scene.text);
   out["file"] = text(scene.output.file);
   out["count"] = scene.needles.count;
-  out["box"] = Column(3, scene.needles.box.data());
+  out["box"] = read_only(scene.needles.box.data(), {3});
   out["moving_walls"] = scene.has_moving_walls();
   if (composition.is_mixture()) {
     add_species(out, composition);
