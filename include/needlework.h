@@ -69,7 +69,8 @@ NEEDLEWORK_API const char* needlework_version(void);
 
 /* 1 if this library on this machine has what is named, else 0: "isa/scalar", "isa/sse4",
  * "isa/avx2", "isa/avx512" (instruction sets), "threads" (several threads for a simulation),
- * "files/h5md" (reading and writing files). [any] */
+ * "files/h5md" (reading and writing files), "effect/NAME" with a NAME that
+ * needlework_setting(simulation, "effects") may give, such as "effect/growth". [any] */
 NEEDLEWORK_API int needlework_has(const char* capability);
 
 /* ---- Making a simulation --------------------------------------------------------------------- */

@@ -16,6 +16,7 @@
 #include "src/json/results.h"
 #include "src/json/shallow_json.h"
 #include "src/runs/bodies_of_needles.h"
+#include "src/runs/capabilities.h"
 #include "src/runs/limits.h"
 #include "src/runs/load_checkpoint.h"
 #include "src/runs/output_path.h"
@@ -84,8 +85,8 @@ std::optional<State> state_in(const Json& request) {
   const bool position = read(vectors_in(request, "position"), state.position);
   const bool orientation = read(vectors_in(request, "orientation"), state.orientation);
   const bool velocity = read(vectors_in(request, "velocity"), state.velocity);
-  const bool angular_velocity =
   const bool peculiar = read(vectors_in(request, "peculiar_velocity"), state.peculiar_velocity);
+  const bool angular_velocity =
       read(vectors_in(request, "angular_velocity"), state.angular_velocity);
   const bool image = read(images_in(request, "image"), state.image);
   const bool id = read(ids_in(request, "needle_id"), state.id);
@@ -93,9 +94,9 @@ std::optional<State> state_in(const Json& request) {
   const bool bodies = read(bodies_in(request, "bodies"), state.bodies);
   const bool box = read(three_in(request, "box"), state.box);
   const bool low = read(three_in(request, "low"), state.low);
-  const auto own = columns_of(state.own_bodies);
   const bool slide = read(number_in(request, "slide"), state.slide);
   const bool shear_rate = read(number_in(request, "shear_rate"), state.shear_rate);
+  const auto own = columns_of(state.own_bodies);
   const bool has_own =
       std::ranges::any_of(own, [&](const auto& column) { return request.contains(column.first); });
   if (!(position || orientation || velocity || peculiar || angular_velocity || image || id ||
@@ -105,8 +106,8 @@ std::optional<State> state_in(const Json& request) {
   if (!position || !orientation) {
     throw RequestError("position, orientation: expected both, where a state is given");
   }
-  for (const auto& [field, column] : own) read(numbers_in(request, field, state.size()), *column);
   if (velocity && peculiar) throw RequestError("velocity, peculiar_velocity: expected one of them");
+  for (const auto& [field, column] : own) read(numbers_in(request, field, state.size()), *column);
   if (!velocity && !peculiar) state.velocity.resize(state.size());
   if (!angular_velocity) state.angular_velocity.resize(state.size());
   // A state takes no rows of these for absent ones.
@@ -244,7 +245,8 @@ const std::map<std::string, Requests::Handler> Requests::handlers = {
     {"checkpoint", &Requests::checkpoint},
     {"sample", &Requests::sample},
     {"data", &Requests::data},
-    {"predict", &Requests::predict}};
+    {"predict", &Requests::predict},
+    {"version", &Requests::version}};
 
 Json Requests::answer(const Json& request, const Connection& connection) {
   const std::optional<std::string> name = text_in(request, "do");
@@ -385,12 +387,12 @@ Json Requests::state(const Json& request, const Connection&) {
   add("angular_velocity", state.angular_velocity);
   add("image", state.image);
   add("needle_id", state.id);
+  add("species", state.species);
   // Without a flow, velocities are beside none.
   if (wanted) {
     const bool flows = !state.peculiar_velocity.empty();
     add("peculiar_velocity", flows ? state.peculiar_velocity : state.velocity);
   }
-  add("species", state.species);
   // All of them make a simulation of the same needles, whose bodies differ only where these do.
   const Composition& composition = run.simulation().composition();
   OwnBodies own;
@@ -404,11 +406,11 @@ Json Requests::state(const Json& request, const Connection&) {
   // Where walls do not move, the box is that of the scene.
   const bool moves = run.scene().has_moving_walls();
   for (const auto& [name, value] : {std::pair("box", &state.box), {"low", &state.low}})
+    if (moves ? is_wanted(name) : wanted && is_wanted(name)) answer[name] = numbers(*value);
   const bool is_sheared = run.scene().shear.has_value();
   for (const auto& [name, value] :
        {std::pair("slide", state.slide), {"shear_rate", state.shear_rate}})
     if (is_sheared ? is_wanted(name) : wanted && is_wanted(name)) answer[name] = value;
-    if (moves ? is_wanted(name) : wanted && is_wanted(name)) answer[name] = numbers(*value);
   if (is_wanted("bodies"))
     answer["bodies"] = json_of(bodies_of(composition, state.scale.value_or(1)));
   return answer;
@@ -473,6 +475,11 @@ Json Requests::velocities(const Json& request, const Connection&) {
 }
 
 Json Requests::predict(const Json& request, const Connection&) { return first_contacts(request); }
+
+Json Requests::version(const Json& request, const Connection&) {
+  require_only(request, {});
+  return {{"version", NEEDLEWORK_VERSION}, {"capabilities", runs::capabilities()}};
+}
 
 Json Requests::checkpoint(const Json& request, const Connection&) {
   require_only(request, {"simulation"});

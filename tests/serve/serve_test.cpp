@@ -518,6 +518,16 @@ TEST(Serve, EndsWhereTheSceneSaysHowFarBodiesGrow) {
   EXPECT_EQ(second[1]["stop"], "grown") << second[1];
 }
 
+TEST(Serve, HasAVersionAndCapabilities) {
+  auto answers = answers_to({{{"do", "version"}}, {{"do", "version"}, {"simulation", 1}}});
+  EXPECT_TRUE(test::contains(answers[0].value("version", ""), ".")) << answers[0];
+  for (const char* name : {"files/h5md", "isa/scalar", "effect/growth"}) {
+    const Json& all = answers[0]["capabilities"];
+    EXPECT_NE(std::find(all.begin(), all.end(), name), all.end()) << name;
+  }
+  EXPECT_EQ(answers[1]["code"], 2);
+}
+
 TEST(Serve, WritesStatesAndOutput) {
   const test::TemporaryFolder folder;
   const std::string state = folder.path() / "state.h5", output = folder.path() / "run.h5";
@@ -636,17 +646,18 @@ TEST(Serve, AnswersEveryLineThatItDoesNotUnderstand) {
   auto answers = answers_to_text("hello\n\n[1]\n{\"do\": 5}\n{\"do\": \"fly\"}\n{}\n" + deep +
                                  "\n\"\xff\"\n" + "{\"time\": 1e999}\n1e999\n{\"id\": " + deep +
                                  std::string(deep.size(), ']') + "}\n" + create().dump() + "\n");
-  ASSERT_EQ(answers.size(), 11u);
-  for (int n = 0; n < 10; ++n) {
+  ASSERT_EQ(answers.size(), 12u);
+  for (int n = 0; n < 11; ++n) {
     EXPECT_EQ(answers[n]["ok"], false);
     EXPECT_EQ(answers[n]["code"], 2) << answers[n];
   }
   EXPECT_EQ(answers[0]["message"], "line 1: no JSON at byte 1: expected a JSON object");
-  EXPECT_EQ(answers[1]["message"], "line 3: expected a JSON object");
-  EXPECT_EQ(answers[4]["message"].get<std::string>().substr(0, 13), "do is missing");
-  EXPECT_EQ(answers[7]["message"], "line 9: expected numbers that a double can hold");
-  EXPECT_EQ(answers[9]["message"], "line 11: expected values in at most 100 levels");
-  EXPECT_EQ(answers[10]["ok"], true);
+  EXPECT_EQ(answers[1]["message"], "line 2: no JSON at byte 1: expected a JSON object");
+  EXPECT_EQ(answers[2]["message"], "line 3: expected a JSON object");
+  EXPECT_EQ(answers[5]["message"].get<std::string>().substr(0, 13), "do is missing");
+  EXPECT_EQ(answers[8]["message"], "line 9: expected numbers that a double can hold");
+  EXPECT_EQ(answers[10]["message"], "line 11: expected values in at most 100 levels");
+  EXPECT_EQ(answers[11]["ok"], true);
 }
 
 TEST(Serve, NamesTheFieldThatIsWrong) {
