@@ -69,7 +69,8 @@ NEEDLEWORK_API const char* needlework_version(void);
 
 /* 1 if this library on this machine has what is named, else 0: "isa/scalar", "isa/sse4",
  * "isa/avx2", "isa/avx512" (instruction sets), "threads" (several threads for a simulation),
- * "files/h5md" (reading and writing files). [any] */
+ * "files/h5md" (reading and writing files), "effect/NAME" with a NAME that
+ * needlework_setting(simulation, "effects") may give, such as "effect/growth". [any] */
 NEEDLEWORK_API int needlework_has(const char* capability);
 
 /* ---- Making a simulation --------------------------------------------------------------------- */
@@ -188,12 +189,13 @@ enum needlework_stop {
 };
 
 /* Runs until a limit is met, at once if it is met already. Limits count from the start of the
- * simulation; NULL stands for the scene's [until]. `stop` receives a value of needlework_stop
- * (NULL: not wanted). Where a call stops does not change the trajectory. On failure the simulation
- * has come as far as it could: on NEEDLEWORK_INVALID_STATE the state is that before the event that
- * failed, and the message names the bundle for `needlework replay` that lies beside the output
- * file, if there is one; on NEEDLEWORK_IO the output file is complete up to the last sample, and
- * the simulation can be looked at, but not run any further. [handle] */
+ * simulation; NULL stands for the ends of the scene: [until], and those of driving.growth. `stop`
+ * receives a value of needlework_stop (NULL: not wanted). Where a call stops does not change the
+ * trajectory. On failure the simulation has come as far as it could: on NEEDLEWORK_INVALID_STATE
+ * the state is that before the event that failed, and the message names the bundle for `needlework
+ * replay` that lies beside the output file, if there is one; on NEEDLEWORK_IO the output file is
+ * complete up to the last sample, and the simulation can be looked at, but not run any further.
+ * [handle] */
 NEEDLEWORK_API int needlework_run_until(needlework_simulation* simulation,
                                         const needlework_limits* limits, int* stop);
 /* The same with limits that count from the present state; NULL is not allowed. [handle] */

@@ -16,6 +16,11 @@ module needlework
                                needlework_stop_walls_meet = 6, needlework_stop_jammed = 7, &
                                needlework_stop_grown = 8, needlework_stop_pressure = 9, &
                                needlework_stop_no_room = 10
+  ! Of needlework_happening; 255 is -1 in Fortran, whose bytes have a sign.
+  integer(c_int8_t), parameter :: needlework_kind_pair = 0, needlework_kind_wall = 1, &
+                                  needlework_kind_contact_entered = 2, &
+                                  needlework_kind_contact_ended = 3, &
+                                  needlework_kind_thermostat = 4, needlework_kind_other = -1
   integer(c_int), parameter :: needlework_data_bytes = 0, needlework_data_json = 1
 
   type, bind(c) :: needlework_error
@@ -261,17 +266,17 @@ module needlework
       type(needlework_error), intent(out), optional :: error
     end function
 
-    ! `image` has three numbers for each needle, image(3, N).
+    ! `image` has three numbers for each needle, image(3, N). Without them they count from 0.
     type(c_ptr) function needlework_create_with_images(scene, initial, image, flags, error) bind(c)
       import :: c_ptr, c_char, c_int, c_int32_t, needlework_error, needlework_initial
       character(kind=c_char), intent(in) :: scene(*)
       type(needlework_initial), intent(in) :: initial
-      integer(c_int32_t), intent(in) :: image(3, *)
+      integer(c_int32_t), intent(in), optional :: image(3, *)
       integer(c_int), value :: flags
       type(needlework_error), intent(out), optional :: error
     end function
 
-    ! `species` has one number for each needle, from 0. Without images they count from 0.
+    ! `species` has one number for each needle, from 0.
     type(c_ptr) function needlework_create_with_species(scene, initial, image, species, flags, &
         error) bind(c)
       import :: c_ptr, c_char, c_int, c_int8_t, c_int32_t, needlework_error, needlework_initial
@@ -428,7 +433,8 @@ module needlework
         bind(c)
       import :: c_ptr, c_int, needlework_vectors
       type(c_ptr), value :: simulation
-      type(needlework_vectors), intent(in) :: velocity, angular_velocity
+      type(needlework_vectors), intent(in) :: velocity
+      type(needlework_vectors), intent(in), optional :: angular_velocity
     end function
 
     integer(c_int) function needlework_sample(simulation, frame) bind(c)

@@ -65,8 +65,9 @@ class Simulation {
   /// Runs until the first of the conditions is met. They count from the start of the run, not from
   /// the present time. Throws InvalidStateError if the run cannot continue correctly; the state
   /// then stays as it was before the event that failed, unless the error is an
-  /// UnfinishedEventError. Throws InputError if no condition is given, if one is not a number, or
-  /// if OpenMP provides fewer threads than at the start; the call may then be repeated.
+  /// UnfinishedEventError. Throws InputError if no condition is given and bodies do not grow, if
+  /// one is not a number, or if OpenMP has fewer threads than at the start; the call may be
+  /// repeated.
   Stop advance(const Scene::Until& until);
 
   /// Lets all needles search their first events, which advance() does otherwise and which may take

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .errors import InputError, IoError
-from .state import ARRAYS, NUMBERS_OF_BODIES, OWN_NUMBERS, Bodies, State
+from .state import ARRAYS, NUMBERS_OF_BODIES, OWN_NUMBERS, Bodies, State, read_only
 from .tilt import counted, reduced_tilt
 from .values import NotPickled
 
@@ -387,7 +387,7 @@ class Needles:
             position.reject(f"shape {position.shape}: expected [frames][needles][3]")
         self.count = position.shape[-2]
         self._common: np.ndarray | None = None  # steps of the frames, if elements differ in them
-        self.periodic = _periodic(group)
+        self.periodic = read_only(_periodic(group))
         self.shear_rate = float(np.ravel(_get(group, "box").attrs.get("shear_rate", 0))[0])
         self.bodies = _bodies(group)
         self.own = _own_numbers(path, group, self.count)

@@ -172,12 +172,18 @@ class Recording(NotPickled):
         return Series(columns)
 
     def observable(self, name: str) -> Values:
-        """What output.observables named, or "theory": fields of one row per sample of the series,
-        and constants such as the borders of bins."""
-        group = self._group(f"series/{name}", f"a run with {name!r} in output.observables")
-        samples = len(self._group("series", "a file of a run with a series")["step"])
+        """What output.observables named, or what the run has without: "theory", "species",
+        "walls", "rods", "contacts", "growth", "energy_budget", "pressure_tensor". Fields of one row
+        per sample of the series, and constants such as the borders of bins."""
+        series = self._group("series", "a file of a run with a series")
+        names = [each for each in series if each not in ("step", *Series.__annotations__)]
+        if name not in names:
+            raise InputError(f"{self.path}: observable({name!r}): expected one of those of this run, "
+                             f"{', '.join(names) or 'which has none'}; output.observables of its "
+                             "scene names others")
+        samples = len(series["step"])
         return Values({field: item["value"][:samples] if hasattr(item, "keys") else item[()]
-                       for field, item in group.items()})
+                       for field, item in series[name].items()})
 
     def by_phase(self, values: ArrayLike, bins: int = 16, wall: int | None = None,
                  weights: ArrayLike | None = None, since: float = 0) -> Values:

@@ -266,8 +266,8 @@ class Simulation(NotPickled):
     ----------
     scene : dict, str or path
         A dictionary of the scene's sections, such as ``{"needles": {"count": 1000, "box": 10}}``,
-        TOML text, or the path of a scene file. docs/scenes.md lists all keys. A scene without
-        [until] needs limits in each call of run().
+        TOML text, or the path of a scene file. docs/scenes.md lists all keys. Without
+        [until] and driving.growth in it, each call of run() needs limits.
     position, velocity, orientation, angular_velocity : arrays [N, 3], optional
         The state to start from: centres in the box or not [L], velocities [L / time], directors
         of any length but 0, which are made unit vectors, and angular velocities, whose part normal
@@ -394,13 +394,13 @@ class Simulation(NotPickled):
         progress : bool
             Whether to show a line with the progress; by default in notebooks only.
 
-        Without limits, those of the scene's [until] hold.
+        Without limits, the ends of the scene hold: [until], and those of driving.growth.
 
         Returns
         -------
         str
-            Why it stopped: "time", "collisions", "energy", "wall_time", "interrupted" or
-            "nothing_can_happen".
+            Why it stopped: "time", "collisions", "energy", "wall_time", "interrupted",
+            "nothing_can_happen", "walls_meet", "jammed", "grown", "pressure" or "no_room".
 
         Raises
         ------

@@ -15,6 +15,12 @@ OWN_NUMBERS = ("length", "diameter", "mass", "inertia")
 """Arrays of a state whose bodies differ within a species."""
 
 
+def read_only(values: np.ndarray) -> np.ndarray:
+    """The same array, which nobody can write to any more."""
+    values.flags.writeable = False
+    return values
+
+
 class Bodies(Table):
     """What is known of the bodies of a state, one row for each species. What is not known is
     missing: name of a single species, or all of it in files of other programs."""
@@ -33,13 +39,13 @@ class Bodies(Table):
     @classmethod
     def of(cls, columns: Mapping[str, Iterable]) -> Bodies:
         """The bodies of these columns, without those that are empty."""
-        return cls({name: tuple(column) if name == "name" else np.array(column, dtype=float)
+        return cls({name: tuple(column) if name == "name" else read_only(np.array(column, dtype=float))
                     for name, column in columns.items() if len(column)})
 
     def grown(self, scale: float) -> Bodies:
         """The same with sizes larger by this factor; masses and moments of inertia stay."""
         powers = {"length": 1, "diameter": 1, "k": 2}
-        return Bodies({name: column * scale**powers[name] if name in powers else column
+        return Bodies({name: read_only(column * scale**powers[name]) if name in powers else column
                        for name, column in self.items()})
 
 
@@ -68,6 +74,9 @@ class State(Table):
     """Its edges, [3] [L]."""
     low: np.ndarray
     """Where its low edges are, [3] [L]; a simulation that starts moves them to 0."""
+    # Under uniform shear:
+    flow: dict[str, float]
+    """slide, of the row of boxes above [L], and shear_rate [1 / time]."""
     # Where bodies of a species differ:
     length: np.ndarray
     """Lengths of the axes, [N] [L]."""

@@ -1,7 +1,6 @@
 // What C callers can compute without a simulation: first contacts, kinetic theory, capabilities.
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -10,7 +9,7 @@
 #include "needlework/theory.h"
 #include "src/c/handle.h"
 #include "src/c/vectors.h"
-#include "src/runs/engine_choice.h"
+#include "src/runs/capabilities.h"
 #include "src/scene/accuracy.h"
 
 namespace needlework::c {
@@ -75,11 +74,9 @@ const char* needlework_version(void) { return NEEDLEWORK_VERSION; }
 
 int needlework_has(const char* capability) {
   if (!capability) return 0;
-  const std::string_view name = capability;
-  if (name == "threads" || name == "files/h5md") return 1;
   int found = 0;
   c::guarded(static_cast<needlework_error*>(nullptr), [&] {
-    for (const std::string& isa : runs::instruction_sets()) found |= "isa/" + isa == name;
+    for (const std::string& name : runs::capabilities()) found |= name == capability;
   });
   return found;
 }

@@ -10,6 +10,7 @@
 #include "src/c/handle.h"
 #include "src/c/vectors.h"
 #include "src/runs/limits.h"
+#include "src/scene/confinement.h"
 
 namespace needlework::c {
 namespace {
@@ -140,12 +141,10 @@ using namespace needlework;
 int needlework_run_until(needlework_simulation* simulation, const needlework_limits* limits,
                          int* stop) {
   return c::run(simulation, stop, [&](const needlework_simulation& self) {
-    const Scene::Until& until = self.run.scene().until;
     if (limits) return c::until_of(*limits, self, runs::from_start);
-    if (!until.time && !until.collisions_per_needle && !until.energy_ratio && !until.wall_s) {
+    if (!has_end(self.run.scene()))
       throw c::UsageError("limits is NULL: expected limits, as the scene has no [until]");
-    }
-    return until;
+    return self.run.scene().until;
   });
 }
 

@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string_view>
+
+#include "src/scene/effect_names.h"
 
 namespace needlework {
 namespace {
@@ -38,20 +42,27 @@ std::string name_effects(const Run& run) {
   const auto& rules = run.gas.composition.rules();
   const bool inelastic = std::any_of(rules.begin(), rules.end(),
                                      [](const Restitution& rule) { return rule.epsilon < 1; });
+  const auto has_source = [&](std::string_view name) {
+    return std::ranges::any_of(run.sources, [&](const auto& each) { return each->name() == name; });
+  };
+  const std::array<bool, effect_names.size()> are_in = {
+      run.effects.rough,
+      run.effects.contact_time,
+      run.gas.composition.is_mixture(),
+      pass_through_each_other(run.gas.composition),
+      run.effects.width,
+      run.gas.composition.has_own_sizes(),
+      run.gas.composition.has_fixed(),
+      bool(run.sliding),
+      has_source("wall"),
+      has_source("thermostat"),
+      run.gas.falls,
+      bool(run.kicks),
+      bool(run.gas.shear),
+      bool(run.growing)};
   std::string out = inelastic ? "inelastic" : "elastic";
-  if (run.effects.rough) out += " rough";
-  if (run.effects.contact_time) out += " tc";
-  if (run.gas.composition.is_mixture()) out += " mixture";
-  if (pass_through_each_other(run.gas.composition)) out += " passing";
-  if (run.effects.width) out += " rods";
-  if (run.gas.composition.has_own_sizes()) out += " sizes";
-  if (run.gas.composition.has_fixed()) out += " fixed";
-  if (run.sliding) out += " sliding";
-  for (const auto& source : run.sources) out += fmt::format(" {}s", source->name());
-  if (run.gas.falls) out += " gravity";
-  if (run.kicks) out += " kicks";
-  if (run.gas.shear) out += " shear";
-  if (run.growing) out += " growth";
+  for (std::size_t n = 0; n < are_in.size(); ++n)
+    if (are_in[n]) out += fmt::format(" {}", effect_names[n]);
   return out;
 }
 

@@ -298,6 +298,7 @@ class SceneWithState {
       completed_->own_bodies = all_numbers_of(scene, state);
     }
     adopt_own_bodies(scene_, this->state());
+    require_rules(scene_, Aspect::sizes);
   }
 
   const Scene& scene() const { return scene_; }
@@ -339,7 +340,7 @@ Simulation::Simulation(const Scene& scene) {
                      "io::read_last_frame() and pass it to Simulation(scene, state)");
   }
   const kernels::DefaultArithmetic arithmetic;
-  require_valid(scene, simulable);
+  require_valid(scene, simulable | Aspect::sizes);
   // The state's arrays are freed before the rest of the run allocates its memory.
   DrawnState drawn = draw_state(scene);
   Gas gas = make_gas(scene, drawn.state);

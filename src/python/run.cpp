@@ -109,13 +109,6 @@ void add_species(py::dict& out, const Composition& composition) {
   if (!composition.all_meet()) out["meet"] = read_only(meet.data(), {size, size});
 }
 
-runs::Limits of_scene(const Scene::Until& until) {
-  return {.time = until.time,
-          .collisions_per_needle = until.collisions_per_needle,
-          .energy_ratio = until.energy_ratio,
-          .wall_s = until.wall_s};
-}
-
 }  // namespace
 
 Run::Run(const SceneSource& source, std::optional<State> state, bool force) {
@@ -184,9 +177,7 @@ std::string Run::drive(const Scene::Until& until, const py::object& show) {
 std::string Run::run(const runs::Limits& limits, const py::object& show) {
   require_idle();
   require_open();
-  return drive(
-      runs::from_start(limits.empty() ? of_scene(run_->scene().until) : limits, run_->simulation()),
-      show);
+  return drive(runs::from_start_or_scene(limits, run_->scene(), run_->simulation()), show);
 }
 
 std::string Run::advance(const runs::Limits& limits, const py::object& show) {
@@ -264,8 +255,10 @@ void Run::checkpoint() {
 
 void Run::close() {
   if (closed_) return;
-  work([&] { run_->close(); });
-  closed_ = true;
+  work([&] {
+    closed_ = true;  // also where that fails
+    run_->close();
+  });
 }
 
 py::tuple Run::state() {
@@ -384,7 +377,7 @@ py::object Run::flow() {
 py::tuple Run::box() {
   require_idle();
   const std::array<double, 3> box = run_->simulation().box(), low = run_->simulation().low();
-  return py::make_tuple(Column(3, box.data()), Column(3, low.data()));
+  return py::make_tuple(read_only(box.data(), {3}), read_only(low.data(), {3}));
 }
 
 py::object Run::stress() {
@@ -432,7 +425,7 @@ py::dict Run::facts() {
   out["text"] = text(scene.text);
   out["file"] = text(scene.output.file);
   out["count"] = scene.needles.count;
-  out["box"] = Column(3, scene.needles.box.data());
+  out["box"] = read_only(scene.needles.box.data(), {3});
   out["moving_walls"] = scene.has_moving_walls();
   if (composition.is_mixture()) {
     add_species(out, composition);

@@ -8,9 +8,19 @@
 #include <utility>
 
 #include "needlework/error.h"
+#include "src/scene/confinement.h"
 
 namespace needlework::runs {
 namespace {
+
+// Whether its energy now is a multiple of that at its start, which ends are measured in.
+void require_measurable(const std::optional<double>& energy_ratio, const Simulation& simulation) {
+  if (!energy_ratio || simulation.initial_energy() != 0 || !(simulation.totals().energy > 0))
+    return;
+  throw InputError(
+      fmt::format("energy_ratio = {}: expected another limit, as the gas was at rest at its start",
+                  *energy_ratio));
+}
 
 void require_valid(const Limits& limits, const Simulation& simulation) {
   for (const auto& [name, value] :
@@ -21,12 +31,7 @@ void require_valid(const Limits& limits, const Simulation& simulation) {
       throw InputError(fmt::format("{} = {}: expected a number >= 0", name, *value));
     }
   }
-  // Its energy now is no multiple of that at its start, which ends are measured in.
-  if (limits.energy_ratio && simulation.initial_energy() == 0 && simulation.totals().energy > 0) {
-    throw InputError(fmt::format(
-        "energy_ratio = {}: expected another limit, as the gas was at rest at its start",
-        *limits.energy_ratio));
-  }
+  require_measurable(limits.energy_ratio, simulation);
   if (limits.empty()) {
     throw InputError(
         "no end condition: expected one or more of time, collisions, collisions_per_needle, "
@@ -56,6 +61,13 @@ Scene::Until from_start(const Limits& limits, const Simulation& simulation) {
                    static_cast<double>(simulation.needles()));
   }
   return until;
+}
+
+Scene::Until from_start_or_scene(const Limits& limits, const Scene& scene,
+                                 const Simulation& simulation) {
+  if (!limits.empty() || !has_end(scene)) return from_start(limits, simulation);
+  require_measurable(scene.until.energy_ratio, simulation);
+  return scene.until;
 }
 
 Scene::Until from_now(const Limits& limits, const Simulation& simulation) {

@@ -26,6 +26,9 @@ struct Limits {
 /// The same conditions as the engine takes them, counted from the start of the run. Throws
 /// InputError, "NAME = VALUE: expected ...", if none is set, or one is negative or not a number.
 Scene::Until from_start(const Limits& limits, const Simulation& simulation);
+/// The same; where no limit is given, the ends that the scene sets.
+Scene::Until from_start_or_scene(const Limits& limits, const Scene& scene,
+                                 const Simulation& simulation);
 /// The same, for conditions that count from the present state of the simulation.
 Scene::Until from_now(const Limits& limits, const Simulation& simulation);
 

@@ -436,10 +436,14 @@ void PreparedRun::listen() {
 
 void PreparedRun::close() {
   if (!writer_) return;
+  // Also after an error: as long as there is a writer, nobody else can continue the file.
+  struct Release {
+    ~Release() { writer.reset(); }
+    std::optional<io::Writer>& writer;
+  } const release{writer_};
   save_checkpoint();
   if (!cut_off_) driver_->finish();
   writer_->close();
-  writer_.reset();
 }
 
 }  // namespace needlework::runs

@@ -96,8 +96,9 @@ class PreparedRun {
   /// Why save_checkpoint() does nothing, and what was expected; empty if it saves.
   std::string why_not_saved() const;
   /// Saves the run, writes the sample and the frame of the end, and closes the file. Then only
-  /// the simulation may be used. Does nothing when called again. Throws IoError. Without it, and
-  /// after an error in the middle of an event, the file ends with the last sample that was due.
+  /// the simulation may be used, and others may continue the file, also where this throws IoError.
+  /// Does nothing when called again. Without it, and after an error in the middle of an event, the
+  /// file ends with the last sample that was due.
   void close();
 
   const Scene& scene() const { return scene_; }

@@ -8,6 +8,7 @@
 #include "src/runs/engine_choice.h"
 #include "src/runs/failure.h"
 #include "src/runs/loaded_scene.h"
+#include "src/scene/confinement.h"
 
 namespace needlework::runs {
 namespace {
@@ -37,8 +38,7 @@ Replay::Replay(const std::string& path, std::size_t last, const std::function<vo
   run_ = prepare(std::move(from));
   start_time_ = run_->simulation().time();
   noted_ = start_collisions_ = run_->simulation().collisions();
-  const Scene::Until& until = run_->scene().until;
-  if (!failure_ && !until.time && !until.collisions_per_needle && !until.energy_ratio) {
+  if (!failure_ && !has_end(run_->scene())) {
     throw InputError(path +
                      ": a checkpoint of a run without end that has not failed: expected a bundle");
   }

@@ -125,6 +125,12 @@ bool exchanges_energy(const Scene& scene) {
          scene.driving.andersen || scene.driving.growth || scene.shear;
 }
 
+bool has_end(const Scene& scene) {
+  const Scene::Until& until = scene.until;
+  return until.time || until.collisions_per_needle || until.energy_ratio || until.wall_s ||
+         scene.driving.growth;
+}
+
 bool is_pushed(const Scene& scene) { return exchanges_energy(scene) || has_gravity(scene); }
 
 bool has_gravity(const Scene& scene) { return scene.forces.gravity != std::array<double, 3>{}; }

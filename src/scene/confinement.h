@@ -68,6 +68,10 @@ bool acts_on_single_needles(const Scene& scene);
 /// by driving or by uniform shear.
 bool exchanges_energy(const Scene& scene);
 
+/// Whether a run comes to an end that the scene sets: one of [until], or that its bodies have
+/// grown.
+bool has_end(const Scene& scene);
+
 /// Whether anything changes the motion of needles so that a gas does not just cool or stay as it
 /// is.
 bool is_pushed(const Scene& scene);

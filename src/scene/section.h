@@ -29,6 +29,7 @@ enum class Aspect : unsigned {
   start = 1 << 8,      ///< what an initial state is drawn from
   end = 1 << 9,        ///< whether a run that goes on until its end comes to one
   restored = 1 << 10,  ///< what holds for every scene that has been read from a text
+  sizes = 1 << 11,     ///< what bodies are, also where the rows of a state say it
 };
 
 /// A set of aspects.

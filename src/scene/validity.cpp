@@ -86,7 +86,7 @@ void require_restored(const Scene& scene) {
                             Aspect::start | Aspect::restored);
   require_rules(scene,
                 Aspect::species | Aspect::bodies | Aspect::pairs | Aspect::effects |
-                    Aspect::output | Aspect::room | Aspect::restored,
+                    Aspect::output | Aspect::room | Aspect::restored | Aspect::sizes,
                 {.has_places = false});
 }
 

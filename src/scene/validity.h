@@ -17,7 +17,8 @@ namespace needlework {
 inline constexpr Aspects simulable = Aspect::species | Aspect::bodies | Aspect::pairs |
                                      Aspect::walls | Aspect::effects | Aspect::machine;
 /// What an initial state is drawn from, but the seed, which may be any.
-inline constexpr Aspects drawable = Aspect::bodies | Aspect::walls | Aspect::room | Aspect::start;
+inline constexpr Aspects drawable =
+    Aspect::bodies | Aspect::sizes | Aspect::walls | Aspect::room | Aspect::start;
 
 /// Where a scene comes from, for messages.
 struct SceneOrigin {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "needlework/error.h"
+#include "src/scene/confinement.h"
 #include "src/scene/needed_memory.h"
 #include "src/scene/printable.h"
 #include "src/scene/schema.h"
@@ -272,11 +273,7 @@ void require_what_is_needed(const Scene& scene, const Document& document,
       }
     }
   }
-  const Scene::Until& until = scene.until;
-  if (provided.end) return;
-  const bool ends = until.time || until.collisions_per_needle || until.energy_ratio ||
-                    until.wall_s || scene.driving.growth;
-  if (!ends)
+  if (!provided.end && !has_end(scene))
     throw document.missing("an end condition in [until]",
                            "expected one or more of time, collisions_per_needle, energy_ratio, "
                            "wall_s");
@@ -342,7 +339,7 @@ Scene parsed(std::string_view text, std::string_view name, std::span<const Overr
   // A state that is given may say what the scene does not: see adopt_state().
   const bool is_drawn = !provided.state && scene.initial.file.empty();
   // Values before what is missing; where there are walls, the room depends on what they need.
-  if (is_drawn) require_rules(scene, Aspect::bodies, origin);
+  if (is_drawn) require_rules(scene, Aspect::bodies | Aspect::sizes, origin);
   if (is_drawn && given.contains("needles.box") && scene.walls.empty())
     require_rules(scene, Aspect::room, origin);
   require_what_is_needed(scene, document, given, provided);

@@ -16,6 +16,7 @@
 #include "src/json/results.h"
 #include "src/json/shallow_json.h"
 #include "src/runs/bodies_of_needles.h"
+#include "src/runs/capabilities.h"
 #include "src/runs/limits.h"
 #include "src/runs/load_checkpoint.h"
 #include "src/runs/output_path.h"
@@ -84,6 +85,7 @@ std::optional<State> state_in(const Json& request) {
   const bool position = read(vectors_in(request, "position"), state.position);
   const bool orientation = read(vectors_in(request, "orientation"), state.orientation);
   const bool velocity = read(vectors_in(request, "velocity"), state.velocity);
+  const bool peculiar = read(vectors_in(request, "peculiar_velocity"), state.peculiar_velocity);
   const bool angular_velocity =
       read(vectors_in(request, "angular_velocity"), state.angular_velocity);
   const bool image = read(images_in(request, "image"), state.image);
@@ -92,23 +94,28 @@ std::optional<State> state_in(const Json& request) {
   const bool bodies = read(bodies_in(request, "bodies"), state.bodies);
   const bool box = read(three_in(request, "box"), state.box);
   const bool low = read(three_in(request, "low"), state.low);
+  const bool slide = read(number_in(request, "slide"), state.slide);
+  const bool shear_rate = read(number_in(request, "shear_rate"), state.shear_rate);
   const auto own = columns_of(state.own_bodies);
   const bool has_own =
       std::ranges::any_of(own, [&](const auto& column) { return request.contains(column.first); });
-  if (!(position || orientation || velocity || angular_velocity || image || id || species ||
-        bodies || box || low || has_own)) {
+  if (!(position || orientation || velocity || peculiar || angular_velocity || image || id ||
+        species || bodies || box || low || slide || shear_rate || has_own)) {
     return std::nullopt;
   }
   if (!position || !orientation) {
     throw RequestError("position, orientation: expected both, where a state is given");
   }
+  if (velocity && peculiar) throw RequestError("velocity, peculiar_velocity: expected one of them");
   for (const auto& [field, column] : own) read(numbers_in(request, field, state.size()), *column);
-  if (!velocity) state.velocity.resize(state.size());
+  if (!velocity && !peculiar) state.velocity.resize(state.size());
   if (!angular_velocity) state.angular_velocity.resize(state.size());
   // A state takes no rows of these for absent ones.
-  for (const auto& [field, given, rows] : {std::tuple("image", image, state.image.size()),
-                                           {"needle_id", id, state.id.size()},
-                                           {"species", species, state.species.size()}}) {
+  for (const auto& [field, given, rows] :
+       {std::tuple("image", image, state.image.size()),
+        {"peculiar_velocity", peculiar, state.peculiar_velocity.size()},
+        {"needle_id", id, state.id.size()},
+        {"species", species, state.species.size()}}) {
     if (!given || rows == state.size()) continue;
     throw RequestError(fmt::format("{}: {} rows: expected {}", field, rows, state.size()));
   }
@@ -238,7 +245,8 @@ const std::map<std::string, Requests::Handler> Requests::handlers = {
     {"checkpoint", &Requests::checkpoint},
     {"sample", &Requests::sample},
     {"data", &Requests::data},
-    {"predict", &Requests::predict}};
+    {"predict", &Requests::predict},
+    {"version", &Requests::version}};
 
 Json Requests::answer(const Json& request, const Connection& connection) {
   const std::optional<std::string> name = text_in(request, "do");
@@ -266,9 +274,26 @@ runs::PreparedRun& Requests::run_of(const Json& request) {
 }
 
 Json Requests::create(const Json& request, const Connection&) {
-  require_only(request, {"scene", "path", "force", "position", "orientation", "velocity",
-                         "angular_velocity", "image", "needle_id", "species", "bodies", "length",
-                         "diameter", "mass", "inertia", "box", "low"});
+  require_only(request, {"scene",
+                         "path",
+                         "force",
+                         "position",
+                         "orientation",
+                         "velocity",
+                         "angular_velocity",
+                         "image",
+                         "needle_id",
+                         "species",
+                         "bodies",
+                         "length",
+                         "diameter",
+                         "mass",
+                         "inertia",
+                         "box",
+                         "low",
+                         "peculiar_velocity",
+                         "slide",
+                         "shear_rate"});
   const bool force = flag_in(request, "force");
   runs::LoadedScene loaded = scene_in(request);
   runs::require_writable_output(loaded.scene, force, text_in(request, "path").value_or(""),
@@ -311,13 +336,10 @@ Json Requests::run_until(const Json& request, const Connection& connection) {
   require_only(request, {"simulation", "time", "collisions", "collisions_per_needle",
                          "energy_ratio", "wall_s", "progress_s", "batch", "fields", "happenings"});
   runs::PreparedRun& run = run_of(request);
-  const runs::Limits limits = limits_in(request);
-  const Scene::Until& of_scene = run.scene().until;
-  const bool scene_ends =
-      of_scene.time || of_scene.collisions_per_needle || of_scene.energy_ratio || of_scene.wall_s;
-  const bool as_scene_says = limits.empty() && scene_ends;
-  return drive(run, as_scene_says ? of_scene : counted(limits, run, runs::from_start), request,
-               connection);
+  const auto count = [&](const runs::Limits& limits, const Simulation& simulation) {
+    return runs::from_start_or_scene(limits, run.scene(), simulation);
+  };
+  return drive(run, counted(limits_in(request), run, count), request, connection);
 }
 
 Json Requests::totals(const Json& request, const Connection&) {
@@ -332,10 +354,23 @@ Json Requests::state(const Json& request, const Connection&) {
     runs::write_state(run.simulation(), run.scene(), run.data(), *file, flag_in(request, "force"));
     return {{"file", *file}};
   }
-  static constexpr std::array<std::string_view, 14> arrays{
-      "position", "velocity", "orientation", "angular_velocity", "image", "needle_id",
-      "species",  "bodies",   "length",      "diameter",         "mass",  "inertia",
-      "box",      "low"};
+  static constexpr std::array<std::string_view, 17> arrays{"position",
+                                                           "velocity",
+                                                           "orientation",
+                                                           "angular_velocity",
+                                                           "image",
+                                                           "needle_id",
+                                                           "species",
+                                                           "bodies",
+                                                           "length",
+                                                           "diameter",
+                                                           "mass",
+                                                           "inertia",
+                                                           "box",
+                                                           "low",
+                                                           "peculiar_velocity",
+                                                           "slide",
+                                                           "shear_rate"};
   const auto wanted = names_in(request, "arrays", arrays);
   State state = run.simulation().copy();
   state.species.resize(state.size());  // of one species all are 0
@@ -353,6 +388,11 @@ Json Requests::state(const Json& request, const Connection&) {
   add("image", state.image);
   add("needle_id", state.id);
   add("species", state.species);
+  // Without a flow, velocities are beside none.
+  if (wanted) {
+    const bool flows = !state.peculiar_velocity.empty();
+    add("peculiar_velocity", flows ? state.peculiar_velocity : state.velocity);
+  }
   // All of them make a simulation of the same needles, whose bodies differ only where these do.
   const Composition& composition = run.simulation().composition();
   OwnBodies own;
@@ -367,6 +407,10 @@ Json Requests::state(const Json& request, const Connection&) {
   const bool moves = run.scene().has_moving_walls();
   for (const auto& [name, value] : {std::pair("box", &state.box), {"low", &state.low}})
     if (moves ? is_wanted(name) : wanted && is_wanted(name)) answer[name] = numbers(*value);
+  const bool is_sheared = run.scene().shear.has_value();
+  for (const auto& [name, value] :
+       {std::pair("slide", state.slide), {"shear_rate", state.shear_rate}})
+    if (is_sheared ? is_wanted(name) : wanted && is_wanted(name)) answer[name] = value;
   if (is_wanted("bodies"))
     answer["bodies"] = json_of(bodies_of(composition, state.scale.value_or(1)));
   return answer;
@@ -432,6 +476,11 @@ Json Requests::velocities(const Json& request, const Connection&) {
 
 Json Requests::predict(const Json& request, const Connection&) { return first_contacts(request); }
 
+Json Requests::version(const Json& request, const Connection&) {
+  require_only(request, {});
+  return {{"version", NEEDLEWORK_VERSION}, {"capabilities", runs::capabilities()}};
+}
+
 Json Requests::checkpoint(const Json& request, const Connection&) {
   require_only(request, {"simulation"});
   runs::PreparedRun& run = run_of(request);
@@ -442,8 +491,10 @@ Json Requests::checkpoint(const Json& request, const Connection&) {
 
 Json Requests::close(const Json& request, const Connection&) {
   require_only(request, {"simulation"});
-  run_of(request).close();
-  runs_.erase(static_cast<std::int64_t>(*count_in(request, "simulation")));
+  static_cast<void>(run_of(request));
+  // Gone also where its file cannot be completed.
+  const auto closed = runs_.extract(static_cast<std::int64_t>(*count_in(request, "simulation")));
+  closed.mapped()->close();
   return Json::object();
 }
 

@@ -50,6 +50,7 @@ class Requests {
   Json data(const Json& request, const Connection&);
   Json predict(const Json& request, const Connection&);
   Json close(const Json& request, const Connection&);
+  Json version(const Json& request, const Connection&);
 
   runs::PreparedRun& run_of(const Json& request);
   Json add(std::unique_ptr<runs::PreparedRun> run, const std::string& warning);

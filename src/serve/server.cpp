@@ -75,7 +75,6 @@ class Server {
   /// Takes a line of input; false after "quit".
   bool take(const std::string& text) {
     ++line_;
-    if (text.find_first_not_of(" \t\r") == std::string::npos) return true;
     Line line = parse(line_, text);
     const bool quits = line.asks_for("quit");
     // All that was sent before is meant, also what has not begun.

@@ -102,6 +102,22 @@ TEST_F(COutput, IsCompleteUpToTheLastSampleIfItIsNotClosed) {
   EXPECT_TRUE(contains(info("gas.h5"), "60 particles"));
 }
 
+// The folder is away for a while, as that of a network may be.
+TEST_F(COutput, IsFreeForOthersAfterItCouldNotBeClosed) {
+  const std::string folder = path("there"), away = path("away");
+  std::filesystem::create_directory(folder);
+  const CSimulation simulation(cooling + "output.file = \"" + folder + "/gas.h5\"\n");
+  simulation.run_to(100);
+  EXPECT_EQ(needlework_checkpoint(simulation), NEEDLEWORK_OK);
+  std::filesystem::rename(folder, away);
+  EXPECT_EQ(needlework_close(simulation), NEEDLEWORK_IO);
+  EXPECT_EQ(needlework_close(simulation), NEEDLEWORK_OK) << "it has been told";
+  std::filesystem::rename(away, folder);
+  const CSimulation again = CSimulation::resumed(folder + "/gas.h5");
+  ASSERT_NE(again, nullptr) << again.error.message;
+  EXPECT_EQ(again.hash(), simulation.hash());
+}
+
 TEST_F(COutput, KeepsAFileThatExistsUnlessItIsToBeReplaced) {
   write("gas.h5", "precious");
   const CSimulation refused(scene_with_file());

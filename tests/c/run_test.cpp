@@ -164,7 +164,17 @@ TEST_F(CRun, HasTheVersionAndTheCapabilitiesOfTheProgram) {
   }
   EXPECT_EQ(needlework_has("threads"), 1);
   EXPECT_EQ(needlework_has("files/h5md"), 1);
-  for (const char* name : {"", "isa", "isa/", "scalar", "gpu"}) EXPECT_EQ(needlework_has(name), 0);
+  // Those that a simulation has, among them.
+  EXPECT_EQ(needlework_has("effect/growth"), 1);
+  const CSimulation gas(
+      "needles = { count = 9, box = 5, diameter = 0.1 }\ncollisions.tc = 0.1\n"
+      "forces.gravity = [0, 0, -1]\ndriving.kicks = { every = 1, translational = 1 }\n"
+      "walls = [{ axis = \"z\", side = \"both\" }]\n");
+  ASSERT_STREQ(needlework_setting(gas, "effects"), "elastic tc rods walls gravity kicks");
+  for (const char* name : {"tc", "rods", "walls", "gravity", "kicks"})
+    EXPECT_EQ(needlework_has((std::string("effect/") + name).c_str()), 1) << name;
+  for (const char* name : {"", "isa", "isa/", "scalar", "gpu", "effect/elastic", "growth"})
+    EXPECT_EQ(needlework_has(name), 0);
   EXPECT_EQ(needlework_has(nullptr), 0);
 }
 

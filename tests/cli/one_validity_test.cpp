@@ -155,7 +155,7 @@ TEST_F(OneValidity, OfASceneMadeInCode) {
 // And with what completes or restores a scene.
 TEST_F(OneValidity, OfACheckpoint) {
   constexpr Aspects asked = Aspect::species | Aspect::bodies | Aspect::pairs | Aspect::effects |
-                            Aspect::output | Aspect::room;
+                            Aspect::output | Aspect::room | Aspect::sizes;
   int refused = 0;
   for (const InvalidScene& each : invalid_scenes()) {
     const Scene scene = made_in_code(each.text);

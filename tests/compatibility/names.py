@@ -142,7 +142,8 @@ def declarations(language, kinds, headers):
         scope, name = tag.get("scope", ""), tag["name"]
         if tag.get("access") in ("private", "protected") or "__anon" in name:
             continue
-        scope = re.sub(r"^__anon\w+$", "", scope)
+        # ctags makes names of what has none from the path of the header.
+        scope = re.sub(r"__anon\w+", "...", re.sub(r"^__anon\w+$", "", scope))
         kind = re.sub(r"__anon\w+", "...", tag.get("typeref", "").removeprefix("typename:"))
         bases = f" of {tag['inherits']}" if tag.get("inherits") else ""
         what = f"{tag['kind']} " if tag["kind"] in ("class", "struct", "enum", "union") else ""

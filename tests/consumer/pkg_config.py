@@ -57,6 +57,7 @@ effects: elastic
 needles have no width 0.0 0.0 0.0833
 contacts 0 0.0 0.0
 growth  1.0 0.0 0.0
+kinds: 1 -1
 data: 0 3 T
 named bytes
 data: notes = {"a": expected JSON in UTF-8

@@ -212,6 +212,21 @@ class Runs(InFolder):
         with self.assertRaisesRegex(IoError, "folder that exists"):
             Simulation(gas(output={"file": str(Path(self.folder, "none", "run.h5"))}))
 
+    def test_a_file_that_cannot_be_closed_is_left_to_others(self):
+        there, away = self.folder / "there", self.folder / "away"
+        there.mkdir()
+        path = there / "run.h5"
+        sim = Simulation(gas(output={"file": str(path)}))
+        sim.advance(collisions=100)
+        sim.checkpoint()
+        there.rename(away)  # as a folder of a network may go
+        with self.assertRaises(IoError):
+            sim.close()
+        sim.close()  # it has been told
+        away.rename(there)
+        with Simulation.resume(path) as again:
+            self.assertEqual(again.hash, sim.hash)
+
     def test_a_closed_simulation_can_be_read_only(self):
         sim = Simulation(GAS)
         sim.advance(collisions=10)

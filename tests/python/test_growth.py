@@ -32,6 +32,24 @@ class Growth(InFolder):
         np.testing.assert_allclose(sim.diameter, 0.3 * growth.scale, rtol=1e-14)
         self.assertIsNone(Simulation({"needles": {"count": 9, "box": 5.0}}).growth)
 
+    def test_growth_is_an_end_of_its_own(self):
+        self.assertEqual(Simulation(SCENE).run(), "grown")
+        with self.assertRaisesRegex(needlework.InputError, "no end condition"):
+            Simulation({"needles": {"count": 60, "box": 6.0}}).run()
+
+    def test_bodies_of_arrays_grow(self):
+        drawn = Simulation({"needles": {"count": 60, "box": 6.0, "diameter": 0.3}})
+        arrays = {name: drawn.state[name] for name in
+                  ("position", "orientation", "velocity", "angular_velocity")}
+        diameter = np.linspace(0.2, 0.3, 60)
+        scene = {"needles": {"box": 6.0}, "driving": {"growth": {"rate": 0.1}}}
+        sim = Simulation(scene, **arrays, diameter=diameter)
+        sim.run(time=1)
+        self.assertGreater(sim.scale, 1)
+        np.testing.assert_allclose(sim.diameter, diameter * sim.scale, rtol=1e-14)
+        with self.assertRaisesRegex(needlework.InputError, "expected bodies with a diameter"):
+            Simulation(scene, **arrays)
+
     def test_a_state_starts_another_simulation(self):
         sim = self.grown()
         self.assertNotIn("length", sim.state)

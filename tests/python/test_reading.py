@@ -83,8 +83,10 @@ class Reading(unittest.TestCase):
         self.assertEqual(alignment.along_axes.shape, (rows, 3, len(alignment.borders) - 1))
         self.assertEqual(self.recording.observable("theory").energy[0],
                          self.recording.series.energy[0])
-        with self.assertRaisesRegex(InputError, "fields"):
-            self.recording.observable("fields")
+        for name in ("fields", "species", "energy", ""):
+            with self.assertRaisesRegex(InputError, f"observable\\('{name}'\\): expected one of those of "
+                                        "this run, .*flow_order, .*theory; output.observables of its"):
+                self.recording.observable(name)
 
     def test_frames_are_read_by_index(self):
         frames = self.recording.frames

@@ -207,6 +207,9 @@ class State(InFolder):
         self.assertFalse(np.array_equal(sim.position, copy))
         velocity = sim.velocity
         kept = velocity.copy()
+        for array in (sim.box, sim.gas.box, sim.state.bodies.length):
+            with self.assertRaises(ValueError):
+                array[0] = 3
         del sim
         np.testing.assert_array_equal(first, copy)
         np.testing.assert_array_equal(velocity, kept)

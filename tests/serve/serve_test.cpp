@@ -11,10 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "needlework/error.h"
 #include "needlework/h5md.h"
 #include "needlework/parse.h"
 #include "needlework/simulation.h"
 #include "src/json/base64.h"
+#include "src/serve/requests.h"
 #include "src/serve/server.h"
 #include "tests/support/contains.h"
 #include "tests/support/temporary_folder.h"
@@ -26,7 +28,6 @@ using json::base64_of;
 using json::bytes_of;
 using json::rows_of;
 using json::text_of;
-using Json = nlohmann::ordered_json;
 
 const std::string scene_text =
     "[needles]\ncount = 60\nbox = 5\n[collisions]\nepsilon = 0.9\n[until]\ncollisions_per_needle = "
@@ -419,6 +420,114 @@ TEST(Serve, CarriesDataOfTheFrontEnd) {
   EXPECT_EQ(second[2]["bytes"], "AP8=");
 }
 
+// Rows of boxes have slid, and velocities are those in the laboratory.
+TEST(Serve, GoesOnFromAShearedState) {
+  const std::string sheared =
+      "collisions = { epsilon = 0.9, tc_relative = 1e-3 }\nshear.rate = 1.5\n";
+  auto first = answers_to(
+      {{{"do", "create"}, {"scene", "needles = { count = 60, box = 4 }\n" + sheared}},
+       {{"do", "advance"}, {"simulation", 1}, {"time", 1}},
+       {{"do", "state"}, {"simulation", 1}},
+       {{"do", "state"}, {"simulation", 1}, {"arrays", {"peculiar_velocity", "slide"}}}});
+  Json& state = first[2];
+  EXPECT_NEAR(state["slide"].get<double>(), std::fmod(1.5 * 4, 4), 1e-9);
+  EXPECT_EQ(state["shear_rate"], 1.5);
+  EXPECT_FALSE(state.contains("peculiar_velocity")) << "but where it is asked for";
+  EXPECT_EQ(first[3]["slide"], state["slide"]);
+  EXPECT_FALSE(first[3].contains("shear_rate"));
+  Json again = state;
+  for (const char* field : {"ok", "time", "needles"}) again.erase(field);
+  again["do"] = "create";
+  again["scene"] = "needles.box = 4\n" + sheared;
+  Json beside = again, both = again, still = again, few = again;
+  beside.erase("velocity");
+  beside.erase("shear_rate");
+  beside["peculiar_velocity"] = first[3]["peculiar_velocity"];
+  both["peculiar_velocity"] = first[3]["peculiar_velocity"];
+  still["scene"] = "needles.box = 4\n";
+  few.erase("velocity");
+  few["peculiar_velocity"] = text_of(std::vector<std::array<double, 3>>(3));
+  auto second = answers_to({again,
+                            {{"do", "state"}, {"simulation", 1}},
+                            {{"do", "totals"}, {"simulation", 1}},
+                            beside,
+                            {{"do", "totals"}, {"simulation", 2}},
+                            both,
+                            still,
+                            few,
+                            create(),
+                            {{"do", "state"}, {"simulation", 3}},
+                            {{"do", "state"},
+                             {"simulation", 3},
+                             {"arrays", {"slide", "velocity", "peculiar_velocity"}}}});
+  ASSERT_EQ(second[0]["ok"], true) << second[0];
+  for (const char* field : {"slide", "shear_rate", "position", "velocity", "image"})
+    EXPECT_EQ(second[1][field], state[field]) << field;
+  EXPECT_NEAR(second[2]["energy"].get<double>(), first[1]["energy"].get<double>(), 1e-12);
+  ASSERT_EQ(second[3]["ok"], true) << second[3];
+  EXPECT_NEAR(second[4]["energy"].get<double>(), first[1]["energy"].get<double>(), 1e-12);
+  EXPECT_EQ(second[5]["message"], "velocity, peculiar_velocity: expected one of them");
+  EXPECT_TRUE(
+      test::contains(second[6]["message"].get<std::string>(), "expected a scene with [shear]"));
+  EXPECT_EQ(second[7]["message"], "peculiar_velocity: 3 rows: expected 60");
+  EXPECT_FALSE(second[9].contains("slide"));
+  EXPECT_EQ(second[10]["slide"], 0);
+  EXPECT_EQ(second[10]["peculiar_velocity"], second[10]["velocity"]);
+}
+
+// Whoever cannot complete a file tells so once, and leaves it to others.
+TEST(Serve, LetsASimulationGoWhoseFileCannotBeCompleted) {
+  const test::TemporaryFolder parent;
+  const std::string folder = parent.path() / "there", away = parent.path() / "away",
+                    output = folder + "/run.h5";
+  std::filesystem::create_directory(folder);
+  Requests requests;
+  const Connection connection{.interrupted = [] { return false; }, .notify = [](const Json&) {}};
+  const auto ask = [&](const Json& request) { return requests.answer(request, connection); };
+  Json run = create();
+  run["scene"] = scene_text + "[output]\nfile = '" + output + "'\n";
+  ask(run);
+  ask({{"do", "advance"}, {"simulation", 1u}, {"collisions", 50u}});
+  ask({{"do", "checkpoint"}, {"simulation", 1u}});
+  std::filesystem::rename(folder, away);
+  EXPECT_THROW(ask({{"do", "close"}, {"simulation", 1u}}), IoError);
+  EXPECT_THROW(ask({{"do", "close"}, {"simulation", 1u}}), RequestError) << "it is gone";
+  std::filesystem::rename(away, folder);
+  EXPECT_EQ(ask({{"do", "resume"}, {"file", output}})["simulation"], 2);
+  EXPECT_EQ(ask({{"do", "run_until"}, {"simulation", 2u}})["trajectory_hash"], hash_of_whole_run());
+}
+
+TEST(Serve, EndsWhereTheSceneSaysHowFarBodiesGrow) {
+  const std::string growth = "driving.growth = { rate = 0.1, until_packing = 0.15 }\n";
+  auto answers = answers_to(
+      {{{"do", "create"},
+        {"scene", "needles = { count = 60, box = 6, diameter = 0.3 }\n" + growth}},
+       {{"do", "run_until"}, {"simulation", 1}},
+       create_elastic(),
+       {{"do", "run_until"}, {"simulation", 2}},
+       {{"do", "create"}, {"scene", "needles = { count = 60, box = 6, diameter = 0.2 }\n"}},
+       {{"do", "state"}, {"simulation", 3}}});
+  EXPECT_EQ(answers[1]["stop"], "grown") << answers[1];
+  EXPECT_EQ(answers[3]["code"], 2) << answers[3];
+  // Sizes that a front end gives grow, too.
+  Json own{{"do", "create"}, {"scene", "needles.box = 6\n" + growth}, {"diameter", 0.2}};
+  for (const char* name : {"position", "orientation", "velocity", "angular_velocity"})
+    own[name] = answers[5][name];
+  auto second = answers_to({own, {{"do", "run_until"}, {"simulation", 1}}});
+  ASSERT_EQ(second[0]["ok"], true) << second[0];
+  EXPECT_EQ(second[1]["stop"], "grown") << second[1];
+}
+
+TEST(Serve, HasAVersionAndCapabilities) {
+  auto answers = answers_to({{{"do", "version"}}, {{"do", "version"}, {"simulation", 1}}});
+  EXPECT_TRUE(test::contains(answers[0].value("version", ""), ".")) << answers[0];
+  for (const char* name : {"files/h5md", "isa/scalar", "effect/growth"}) {
+    const Json& all = answers[0]["capabilities"];
+    EXPECT_NE(std::find(all.begin(), all.end(), name), all.end()) << name;
+  }
+  EXPECT_EQ(answers[1]["code"], 2);
+}
+
 TEST(Serve, WritesStatesAndOutput) {
   const test::TemporaryFolder folder;
   const std::string state = folder.path() / "state.h5", output = folder.path() / "run.h5";
@@ -537,17 +646,18 @@ TEST(Serve, AnswersEveryLineThatItDoesNotUnderstand) {
   auto answers = answers_to_text("hello\n\n[1]\n{\"do\": 5}\n{\"do\": \"fly\"}\n{}\n" + deep +
                                  "\n\"\xff\"\n" + "{\"time\": 1e999}\n1e999\n{\"id\": " + deep +
                                  std::string(deep.size(), ']') + "}\n" + create().dump() + "\n");
-  ASSERT_EQ(answers.size(), 11u);
-  for (int n = 0; n < 10; ++n) {
+  ASSERT_EQ(answers.size(), 12u);
+  for (int n = 0; n < 11; ++n) {
     EXPECT_EQ(answers[n]["ok"], false);
     EXPECT_EQ(answers[n]["code"], 2) << answers[n];
   }
   EXPECT_EQ(answers[0]["message"], "line 1: no JSON at byte 1: expected a JSON object");
-  EXPECT_EQ(answers[1]["message"], "line 3: expected a JSON object");
-  EXPECT_EQ(answers[4]["message"].get<std::string>().substr(0, 13), "do is missing");
-  EXPECT_EQ(answers[7]["message"], "line 9: expected numbers that a double can hold");
-  EXPECT_EQ(answers[9]["message"], "line 11: expected values in at most 100 levels");
-  EXPECT_EQ(answers[10]["ok"], true);
+  EXPECT_EQ(answers[1]["message"], "line 2: no JSON at byte 1: expected a JSON object");
+  EXPECT_EQ(answers[2]["message"], "line 3: expected a JSON object");
+  EXPECT_EQ(answers[5]["message"].get<std::string>().substr(0, 13), "do is missing");
+  EXPECT_EQ(answers[8]["message"], "line 9: expected numbers that a double can hold");
+  EXPECT_EQ(answers[10]["message"], "line 11: expected values in at most 100 levels");
+  EXPECT_EQ(answers[11]["ok"], true);
 }
 
 TEST(Serve, NamesTheFieldThatIsWrong) {

@@ -133,7 +133,7 @@ SceneSection driving_section() {
                [](Scene& s, V v, R r) { return store(growth_of(s).cool_every, number(v, r)); }},
           },
       .rules = {{Aspect::effects, thermostat_is_beside_gravity},
-                {Aspect::bodies, thin_or_fixed_bodies_grow},
+                {Aspect::sizes, thin_or_fixed_bodies_grow},
                 {Aspect::effects, growth_is_beside_other_driving},
                 {Aspect::room, has_grown_at_the_start}},
   };

@@ -15,7 +15,7 @@ program all
   character(kind=c_char), target :: notes(4) = ['{', '"', 'a', '"'], more(2) = [':', '}']
   character(kind=c_char), target :: bytes(3) = [achar(0), achar(27), achar(10)], copy(8)
   real(c_double), target :: r1(3, 1), u1(3, 1), rest(3, 1), r2(3, 1), u2(3, 1), v2(3, 1), horizon(1)
-  real(c_double), target :: length2(1), width(1)
+  real(c_double), target :: length2(1), width(1), moving(3, 60) = 1
   real(c_double) :: box(3), time(1), s12(1), ratio, t_tr(2), t_rot(2), diameter, inertia
   integer(c_int64_t) :: events
   integer(c_size_t) :: length
@@ -57,6 +57,9 @@ program all
   print '(a, i0, 2f4.1)', 'contacts ', contacts%entered, contacts%time, contacts%share
   call require(needlework_get_growth(gas, growth))
   print '(a, 3f4.1)', 'growth ', growth%scale, growth%rate, growth%packing_fraction
+
+  call require(needlework_set_velocities(gas, rows_of(moving)))
+  print '(a, i0, 1x, i0)', 'kinds: ', needlework_kind_wall, needlework_kind_other
 
   call require(needlework_sample(gas, 1_c_int))
   call require(needlework_set_data(gas, 'bytes' // c_null_char, needlework_data_bytes, c_loc(bytes), &

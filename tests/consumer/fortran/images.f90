@@ -11,7 +11,7 @@ program images
   type(needlework_state) :: into
   type(needlework_limits) :: limits
   type(needlework_error) :: error
-  type(c_ptr) :: gas
+  type(c_ptr) :: gas, counted_anew
   integer(c_int) :: stopped
 
   ! The first needle leaves the box upwards along x and downwards along z; the second rests.
@@ -28,6 +28,9 @@ program images
     print '(a)', text_of(error%message)
     stop 1
   end if
+  counted_anew = needlework_create_with_images(scene, initial, flags=0_c_int)
+  if (.not. c_associated(counted_anew)) stop 1
+  call needlework_destroy(counted_anew)
   limits%time = 1
   if (needlework_run_until(gas, limits, stopped) /= needlework_ok) then
     print '(a)', needlework_text(needlework_message(gas))
