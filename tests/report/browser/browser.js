@@ -1,6 +1,6 @@
 // Pages in Chromium, drawn by the CPU, with all that the browser complains about.
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
 import { pathToFileURL } from "node:url";
@@ -15,6 +15,10 @@ export function needlework(...words) {
 
 export function write(name, text) {
   writeFileSync(path.join(folder, name), text);
+}
+
+export function readPage(name) {
+  return readFileSync(path.join(folder, name), "utf8");
 }
 
 export function launch() {

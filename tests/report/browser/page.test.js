@@ -1,7 +1,7 @@
 // What readers of a page can do, each in a browser of their own kind.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { cleanUp, launch, needlework, open, write } from "./browser.js";
+import { cleanUp, launch, needlework, open, readPage, write } from "./browser.js";
 
 const observables = [
   "fields", "profiles", "flow_order", "distributions", "alignment", "velocity_moments",
@@ -83,6 +83,12 @@ collisions = { epsilon = 0.3, sliding = true }
 until.time = 1
 output = { file = "sliding.h5", series_every = 0.125, observables = ["time_correlation"] }
 `);
+  reportOf("growing", `needles.box = 6
+driving.growth = { rate = 0.1, until_packing = 0.3 }
+until.collisions_per_needle = 1000
+output = { file = "growing.h5", observables = ["contact_network"] }
+species = [{ name = "balls", count = 60, length = 0, diameter = 0.4 }]
+`);
   needlework("report", "gas.h5", "-o", "gas.html");
   needlework("report", "gas.h5", "other.h5", "sweep/summary.h5", "bench.json", "-o", "all.html");
   samples = Number(needlework("info", "gas.h5").match(/(\d+) samples/)[1]);
@@ -132,6 +138,23 @@ test("a page from disk opens without complaints and without the network", async 
   }
 });
 
+test("what cannot be shown leaves the rest of the page", async () => {
+  const whole = readPage("all.html");
+  const mark = /(<script [^>]*id="data">)([^]*?)(<\/script>)/;
+  const report = JSON.parse(whole.match(mark)[2]);
+  delete report.sections[0].groups.totals.datasets.t_tr;
+  delete report.sections[2].members;
+  write("broken.html", whole.replace(mark, (_, head, text, end) => head + JSON.stringify(report).replaceAll("</", "<\\/") + end));
+  const { page, complaints, close } = await open(browser, "broken.html");
+  const failed = await page.locator("[role=alert]").allTextContents();
+  assert.equal(failed.length, complaints.length);
+  for (const what of ["The comparison", "Results", "Charts over time", "summary.h5"]) {
+    assert.ok(failed.some((text) => text.startsWith(`${what} cannot be shown: `)), `${what}: ${failed}`);
+  }
+  for (const title of ["Pair correlation", "Cooling curve", "Collision rate"]) assert.ok((await chart(page, title).count()) > 0, title);
+  await close();
+});
+
 show("a title is shown as it is", ["gas.html"], async ({ page }) => {
   assert.equal(await page.locator("h1").textContent(), "A gas </script> & more");
 });
@@ -159,7 +182,7 @@ show("each observable of the file has its charts", ["gas.html"], async ({ page }
 });
 
 test("no observable of the file is without a chart", async () => {
-  for (const name of ["gas", "shaken", "sliding", "rod"]) {
+  for (const name of ["gas", "shaken", "sliding", "rod", "growing"]) {
     const { page, complaints, close } = await open(browser, `${name}.html`);
     const groups = await page.evaluate(() => Object.keys(JSON.parse(document.getElementById("data").textContent).sections[0].groups));
     const charted = await page.evaluate(() => [...document.querySelectorAll("figure[data-group]")].map((f) => f.dataset.group));

@@ -12,6 +12,17 @@ export function element(tag, attributes = {}, ...children) {
   return made;
 }
 
+/** The elements that `make` makes; where it fails, a line that says so in their place, so that all
+ * others are shown. */
+export function shownOrFailed(what, make) {
+  try {
+    return [make()].flat();
+  } catch (error) {
+    console.error(error);
+    return [element("p", { class: "failed", role: "alert" }, `${what} cannot be shown: ${error.message}`)];
+  }
+}
+
 let count = 0;
 
 /** An id that no other element has. */

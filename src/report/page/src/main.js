@@ -1,5 +1,5 @@
 // The page: a heading, a section for each file, and the licences of the libraries.
-import { element } from "./dom.js";
+import { element, shownOrFailed } from "./dom.js";
 import { readReport } from "./data.js";
 import { themeChoice } from "./theme.js";
 import { runSection } from "./sections/run.js";
@@ -33,7 +33,7 @@ function sectionOf(section, title, id) {
     { id, "aria-labelledby": `${id}-title` },
     element("h2", { id: `${id}-title` }, title),
     element("p", { class: "source" }, `${word}, ${section.file}`),
-    make(section),
+    shownOrFailed(section.name, () => make(section)),
   );
 }
 
@@ -55,7 +55,7 @@ function build(report) {
   const parts = sections.map((section, n) => [titles[n], sectionOf(section, titles[n], `section-${n + 1}`)]);
   const runs = sections.filter(({ kind, groups }) => kind === "run" && groups.totals);
   if (runs.length > 1) {
-    const compared = element("section", { id: "compared", "aria-labelledby": "compared-title" }, element("h2", { id: "compared-title" }, "Runs compared"), comparedSection(runs));
+    const compared = element("section", { id: "compared", "aria-labelledby": "compared-title" }, element("h2", { id: "compared-title" }, "Runs compared"), shownOrFailed("The comparison", () => comparedSection(runs)));
     parts.unshift(["Runs compared", compared]);
   }
   if (parts.length > 1) {

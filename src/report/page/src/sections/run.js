@@ -1,5 +1,5 @@
 // The section of one run.
-import { element, slider } from "../dom.js";
+import { element, shownOrFailed, slider } from "../dom.js";
 import { numbers } from "../data.js";
 import { numberText } from "../numbers.js";
 import { curvesChart } from "../charts/curves.js";
@@ -13,7 +13,7 @@ import { snapshotsOf } from "./snapshots.js";
 export function runSection(run) {
   return [
     element("h3", {}, "Results"),
-    factList(resultsOfRun(run), "figures"),
+    ...shownOrFailed("Results", () => factList(resultsOfRun(run), "figures")),
     element(
       "div",
       { class: "beside" },
@@ -22,12 +22,12 @@ export function runSection(run) {
         "div",
         {},
         element("h3", {}, "What was run"),
-        factList(factsOfRun(run), "facts"),
+        ...shownOrFailed("Facts", () => factList(factsOfRun(run), "facts")),
         textBehind("Scene", run.parameters.scene?.value),
       ),
     ),
-    ...withHeading("Over time", timelinesOf(run).map(curvesChart)),
-    ...atOneTime(run),
+    ...shownOrFailed("Charts over time", () => withHeading("Over time", timelinesOf(run).map(curvesChart))),
+    ...shownOrFailed("Charts at one time", () => atOneTime(run)),
   ];
 }
 

@@ -462,7 +462,7 @@ function timelinesOfGroups(run, groups, count) {
   const overDecades = samples ? spansDecades(numbers(samples.time)) : false;
   return timelines
     .filter(({ group }) => groups[group] && (samples || overLags.includes(group)))
-    .map(({ group, title, caption, x = "time", y, log, always, robust, curves }) => ({
+    .map(({ group, title, caption, x = "time", y, log = "", always, robust, curves }) => ({
       group,
       title,
       caption: typeof caption === "function" ? caption(context) : caption,
