@@ -279,7 +279,7 @@ class Theory(InFolder):
                         np.testing.assert_allclose(curve[name][:, n], of_each[n][name], rtol=1e-9)
                 np.testing.assert_allclose(curve.energy, by_program["energy"], rtol=1e-9)
             homogeneous = theory.mixture_rates({**gas, "q": 0}, t_tr, t_rot)
-            self.assertLess(homogeneous.t_tr[0], 1.01 * rates.t_tr[0])  # more is lost to the spins
+            self.assertGreater(homogeneous.t_tr[0], 0.9 * rates.t_tr[0])  # spins take up less
             np.testing.assert_array_equal(
                 theory.mixture_rates({**gas, "q": 0.4}, t_tr, t_rot).t_tr, homogeneous.t_tr)
         self.assertNotIn("q", Simulation({"needles": {"box": 8}, "species": [self.HOLLOW]}).gas)
