@@ -23,8 +23,8 @@ class Cooling {
   Cooling(double collisions, std::span<const Needle> needles);
 
   /// The next instant: as long after the last one as it would have taken at the rate of collisions
-  /// before that, within a factor of 8. The first one follows from an estimate of the engine, and is
-  /// taken from when it `is` [epochs].
+  /// before that, within a factor of 8. The first one follows from an estimate of the engine, and
+  /// is taken from when it `is` [epochs].
   Instant next(double is) const { return later(last_, step_ > 0 ? step_ : is); }
   /// Goes on from next(), with so many collisions since the start of so many bodies, whose flights
   /// until then are all over.

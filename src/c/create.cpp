@@ -80,7 +80,7 @@ needlework_simulation* create(unsigned flags, needlework_error* error, Load&& lo
     const bool replaces = flags & NEEDLEWORK_REPLACE;
     runs::LoadedScene loaded = load();
     runs::require_writable_output(loaded.scene, replaces, path ? path : "", "NEEDLEWORK_REPLACE");
-    const std::string warning = runs::warning_of_unknown_bodies(loaded);
+    const std::string warning = runs::warning_of_state(loaded);
     made = new needlework_simulation(std::move(loaded), replaces);
     report_warning(runs::joined(warning, made->run.warning()), error);
   });

@@ -94,8 +94,8 @@ std::vector<std::string> all_warnings(const LoadedScene& loaded) {
                                 *c.tc * rate, effect_of_long_contact));
     }
   }
-  if (const std::string unknown = warning_of_unknown_bodies(loaded); !unknown.empty())
-    all.push_back(unknown);
+  if (const std::string of_state = warning_of_state(loaded); !of_state.empty())
+    all.push_back(of_state);
   const std::string why = loaded.initial ? why_no_collision(scene, *loaded.initial) : "";
   // A gas at rest may be meant, to be set in motion.
   if (!why.empty() && totals_of(*loaded.initial, scene).energy > 0) {

@@ -11,6 +11,7 @@
 #include "needlework/h5md.h"
 #include "needlework/theory.h"
 #include "src/runs/engine_choice.h"
+#include "src/runs/load_checkpoint.h"
 #include "src/scene/adopt_state.h"
 #include "src/scene/check.h"
 #include "src/scene/needed_memory.h"
@@ -75,11 +76,6 @@ LoadedScene complete_scene(Scene given, State initial) {
   return loaded;
 }
 
-std::string warning_of_unknown_bodies(const LoadedScene& loaded) {
-  if (loaded.scene.initial.file.empty() || !loaded.initial) return "";
-  return warning_of_unknown_bodies(loaded.scene, loaded.initial->bodies);
-}
-
 // The velocity of a needle beside the flow of [shear], if there is one.
 static std::array<double, 3> velocity_of(const State& state, const Scene& scene, std::size_t i) {
   if (state.velocity.empty()) return state.peculiar_velocity.at(i);
@@ -88,6 +84,37 @@ static std::array<double, 3> velocity_of(const State& state, const Scene& scene,
   const double rate = state.shear_rate != 0 ? state.shear_rate : scene.shear->rate;
   out[0] -= rate * state.position[i][1];
   return out;
+}
+
+// The drift beside the flow stays for ever, as if it were heat.
+static std::string warning_of_drift(const LoadedScene& loaded) {
+  constexpr double most_share = 0.01;  // of the temperature
+  const State& state = *loaded.initial;
+  if (!loaded.scene.shear || state.shear_rate != 0 || state.velocity.empty()) return "";
+  const Members members = members_of(loaded);
+  double mass = 0, momentum = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    if (members.species_of(i).fixed) continue;
+    ++count;
+    mass += members.body(i).mass;
+    momentum += members.body(i).mass * velocity_of(state, loaded.scene, i)[0];
+  }
+  const double t_tr = totals_of(state, loaded.scene).t_tr;
+  const double of_drift = momentum * momentum / (3 * mass * static_cast<double>(count));
+  if (!(of_drift > most_share * t_tr)) return "";
+  return fmt::format(
+      "{}: says no flow, so its velocities are taken to have that of [shear]: beside it the gas "
+      "drifts with {:.4g} along x, which is {:.3g} of T_tr = {:.4g} and stays; if they are "
+      "velocities of a gas without a flow, pass them as peculiar_velocity from Python, C or a pipe",
+      place_of(loaded.scene, "initial.file", loaded.scene.initial.file), momentum / mass, of_drift,
+      t_tr);
+}
+
+std::string warning_of_state(const LoadedScene& loaded) {
+  if (loaded.scene.initial.file.empty() || !loaded.initial) return "";
+  const std::string unknown = warning_of_unknown_bodies(loaded.scene, loaded.initial->bodies);
+  return joined(unknown, warning_of_drift(loaded));
 }
 
 std::vector<std::array<double, 3>> peculiar_velocities(const State& state, const Scene& scene) {

@@ -29,8 +29,8 @@ LoadedScene complete_scene(Scene given);
 LoadedScene complete_scene(Scene given, State initial);
 
 /// A warning if the state is from a file that does not say all of its bodies, and neither does the
-/// scene; else empty.
-std::string warning_of_unknown_bodies(const LoadedScene& loaded);
+/// scene; or if it says no flow, but drifts along that of the scene; else empty.
+std::string warning_of_state(const LoadedScene& loaded);
 
 /// Velocities beside the flow of [shear], where there is one [L / time].
 std::vector<std::array<double, 3>> peculiar_velocities(const State& state, const Scene& scene);

@@ -298,7 +298,7 @@ Json Requests::create(const Json& request, const Connection&) {
   runs::LoadedScene loaded = scene_in(request);
   runs::require_writable_output(loaded.scene, force, text_in(request, "path").value_or(""),
                                 "\"force\": true");
-  const std::string warning = runs::warning_of_unknown_bodies(loaded);
+  const std::string warning = runs::warning_of_state(loaded);
   return add(std::make_unique<runs::PreparedRun>(std::move(loaded), force), warning);
 }
 

@@ -259,6 +259,17 @@ TEST_F(CheckCommand, RefusesAStateThatRunRefuses) {
   EXPECT_EQ(refused("check"), refused("run"));
 }
 
+TEST_F(CheckCommand, WarnsOfADriftThatAStateWithoutAFlowHasInOne) {
+  write("still.toml",
+        "needles = { count = 50, box = 5 }\nuntil.time = 0\noutput.file = 'still.h5'\n");
+  ASSERT_EQ(run("run still.toml").exit_code, 0);
+  write("on.toml", "initial.file = 'still.h5'\nuntil.time = 1\n");
+  const std::string drift = "still.h5\": says no flow";
+  EXPECT_FALSE(contains(run("check on.toml").err, drift));
+  EXPECT_TRUE(contains(run("check on.toml --set shear.rate=1").err, drift));
+  EXPECT_FALSE(contains(run("check on.toml --set shear.rate=1e-3").err, drift));
+}
+
 TEST_F(CheckCommand, SaysWhenAnEndIsOutOfReach) {
   const std::string at_rest = "check small.toml --json --set initial.t_tr=0 --set initial.t_rot=0";
   EXPECT_TRUE(run(at_rest).fails(3, "nothing can ever happen, as all needles move alike"));
