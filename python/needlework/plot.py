@@ -2,8 +2,8 @@
 
 ``source`` is what needlework.read() gives or the path of such a file, or a Series beside the
 ``gas`` of its simulation. Each function draws into ``axes``, or into new ones, and returns them.
-Kinetic theory is left out where bodies of a species differ or are fixed, whose cooling it does not
-follow.
+Kinetic theory is left out where bodies of a species differ or are fixed, or where walls, shear,
+growth or driving act, whose cooling it does not follow.
 """
 
 from __future__ import annotations
@@ -69,28 +69,41 @@ def temperature_ratio(source: Source, gas: Values | None = None,
 
 def needles(state: Any, axes: Axes | None = None, *, length: float | None = None,
             most: int = 5000) -> Axes:
-    """Needles as lines in three dimensions, coloured by speed.
+    """Needles as lines in three dimensions and spheres as discs about as large as they are,
+    coloured by speed.
 
     ``state`` is a Simulation or a frame; ``length`` that of all needles, each as long as it is
     unless that is given; ``most`` is how many needles are drawn, those with the lowest ids, because
     Matplotlib is slow with many.
     """
     import matplotlib.pyplot as plt
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
     from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
     axes = axes or plt.figure(figsize=(6, 6), layout="constrained").add_subplot(projection="3d")
     own = np.nan_to_num(state.length, nan=1.0) if length is None else np.full(most, length)
     centre = state.position[:most]
-    half = 0.5 * own[:len(centre), None] * state.orientation[:most]
+    own = own[:len(centre)]
+    half = 0.5 * own[:, None] * state.orientation[:most]
     speed = np.linalg.norm(state.velocity[:most], axis=1)
-    lines = Line3DCollection(np.stack([centre - half, centre + half], axis=1), cmap="plasma",
-                             array=speed, linewidths=1)
-    axes.add_collection3d(lines)
+    colours = {"cmap": "plasma", "norm": Normalize(np.min(speed, initial=np.inf),
+                                                   np.max(speed, initial=0.0))}
+    spheres = own == 0
+    if not np.all(spheres):
+        axes.add_collection3d(Line3DCollection(
+            np.stack([centre - half, centre + half], axis=1)[~spheres], array=speed[~spheres],
+            linewidths=1, **colours))
+    if np.any(spheres):
+        # Points per length, of a box that fills about half of the figure.
+        scale = 36 * min(axes.figure.get_size_inches()) / np.max(state.box)
+        axes.scatter(*centre[spheres].T, c=speed[spheres],
+                     s=(scale * state.diameter[:most][spheres])**2, linewidths=0, **colours)
     for set_limits, low, edge in zip((axes.set_xlim, axes.set_ylim, axes.set_zlim), state.low,
                                      state.box):
         set_limits(low, low + edge)
-    axes.set_box_aspect(state.box)
-    axes.figure.colorbar(lines, ax=axes, shrink=0.6, label="speed")
+    axes.set_box_aspect(tuple(state.box))
+    axes.figure.colorbar(ScalarMappable(**colours), ax=axes, shrink=0.6, label="speed")
     return axes
 
 
@@ -155,8 +168,9 @@ def _of_species(sums: Values, n: int, turning: float) -> Values:
 
 
 def _has_theory(gas: Values) -> bool:
-    """Whether the theory of a gas that cools follows these bodies, as that of the program does."""
-    return not gas.get("differ", False) and bool(np.all(np.isfinite(gas.mass)))
+    """Whether the theory of a gas that cools follows this one, as that of the program does."""
+    return (not gas.get("differ", False) and gas.get("undisturbed_until", np.inf) > 0
+            and bool(np.all(np.isfinite(gas.mass))))
 
 
 def _theory(series: Series, gas: Values,

@@ -263,7 +263,7 @@ class Recording(NotPickled):
         some pass through each other; diameter of rods of finite width, and q = 4 I / (m D^2)
         where spheres are rough, of each species of several; differ, whether bodies of a species do, of whom length, diameter, mass
         and k are means; and undisturbed_until, when a caller
-        first replaced the velocities, or inf."""
+        first replaced the velocities, 0 where more than collisions acts on the gas, or inf."""
         given, first = self.parameters, self.frames[0]
         facts = {"count": len(first.id), "box": first.box, "differ": "length" in self._needles}
         if "species" in given:
@@ -282,7 +282,9 @@ class Recording(NotPickled):
             facts["q"] = q
         return Values({**facts, "k": given.k, "epsilon": given.epsilon, "beta": given.beta,
                        "length": given.get("length", 1.0),
-                       "undisturbed_until": min(self.velocities_set.time, default=np.inf)})
+                       "undisturbed_until": undisturbed_until(
+                           self._file.get("series/energy_budget", ()),
+                           min(self.velocities_set.time, default=np.inf))})
 
     def close(self) -> None:
         """Closes the file. Arrays that were read stay."""
@@ -321,6 +323,12 @@ class Recording(NotPickled):
                       "samples": self.series.rows if self._has("series") else "not recorded",
                       "events": len(self.events) if self._has("events") else "not recorded"}
         return html_table(facts)
+
+
+def undisturbed_until(effects: Iterable[str], velocities_set: float) -> float:
+    """How long kinetic theory may follow a gas of these numbers of the energy budget: 0 where
+    walls, shear, growth or driving act on it, else until a caller replaces the velocities."""
+    return 0.0 if set(effects) - {"pairs", "velocities_set"} else velocities_set
 
 
 def _q_of_spheres(given: Values) -> np.ndarray | float:

@@ -19,6 +19,7 @@ from .collisions import (COLLISION, COLLISION_WITH_STATES, HAPPENING,
 from .data import Data
 from .errors import Error, InputError
 from .progress import progress_line
+from .reading import undisturbed_until
 from .scene_text import SceneLike, scene_text
 from .state import NUMBERS_OF_BODIES, OWN_NUMBERS, Bodies, State
 from .values import NotPickled, Values, html_table
@@ -727,12 +728,13 @@ class Simulation(NotPickled):
         some pass through each other; diameter of rods of finite width, and q = 4 I / (m D^2)
         where spheres are rough, of each species of several; differ, whether bodies of a species do, of whom length, diameter, mass
         and k are means; and undisturbed_until, the time of the
-        first set_velocities(), or inf."""
+        first set_velocities(), 0 where more than collisions acts on the gas, or inf."""
         names = [name for name in ("count", "box", "species", "counts", "k", "epsilon", "beta",
                                    "meet", "length", "mass", "diameter", "q", "differ")
                  if name in self._facts]
         return Values({**{name: self._facts[name] for name in names}, "box": self.box,
-                       "undisturbed_until": self._undisturbed_until})
+                       "undisturbed_until": undisturbed_until(self.energy_budget,
+                                                              self._undisturbed_until)})
 
     @property
     def engine(self) -> Values:

@@ -5,7 +5,8 @@
 //   velocity         components of v along x, y and z, in units of sqrt(T_tr / m), m its own mass
 //   energy_tr        m v^2 / 2 of each needle, in units of T_tr; for Gaussian velocities its
 //                    density is 2 sqrt(e / pi) exp(-e)
-//   energy_rot       I w^2 / 2 of each needle, in units of T_rot; for Gaussian ones exp(-e)
+//   energy_rot       I w^2 / 2 of each needle, in units of T_rot; for Gaussian ones exp(-e), of
+//                    rough spheres as energy_tr
 //
 // T_tr and T_rot are those of the whole gas, or species, at this time. Values outside the borders
 // are left out, and so are all values where the unit is 0.

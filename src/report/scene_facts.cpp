@@ -56,7 +56,8 @@ Json species_of(const Composition& composition) {
                    {"mass", each.mass},
                    {"k", json::k_of(each)},
                    {"t_tr", each.t_tr},
-                   {"t_rot", each.t_rot}});
+                   {"t_rot", each.t_rot},
+                   {"rotations", each.rotations()}});
     json::add_sizes(out.back(), each);
   }
   return out;
@@ -143,6 +144,7 @@ Json scene_facts(const Scene& scene) {
           {"mass", mass},
           {"t_tr", of_one(needle.t_tr)},
           {"t_rot", of_one(needle.t_rot)},
+          {"rotations", one ? Json(needle.rotations()) : Json(nullptr)},
           {"initial_file", scene.initial.file},
           {"epsilon", scene.collisions.epsilon},
           {"beta", scene.collisions.beta},
@@ -152,6 +154,7 @@ Json scene_facts(const Scene& scene) {
            scene.collisions.sliding ? Json(scene.collisions.sliding_below) : Json(nullptr)},
           {"walls", walls_of(scene)},
           {"gravity", scene.forces.gravity},
+          {"shear_rate", scene.shear ? Json(scene.shear->rate) : Json(nullptr)},
           {"driving", driving_of(scene.driving)},
           {"search", scene.engine.search},
           {"queue", scene.engine.queue},

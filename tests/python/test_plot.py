@@ -117,6 +117,17 @@ class Pictures(InFolder):
         ends = np.array(plot.needles(sim).collections[0]._segments3d)
         np.testing.assert_allclose(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1), sim.length)
 
+    def test_spheres_are_discs_beside_needles(self):
+        sim = needlework.Simulation({"needles": {"box": 6.0}, "species": [
+            {"name": "rods", "count": 20, "diameter": 0.1},
+            {"name": "balls", "count": 10, "length": 0, "diameter": 0.5},
+            {"name": "large", "count": 5, "length": 0, "diameter": 1}]})
+        lines, discs = plot.needles(sim).collections
+        self.assertEqual(len(lines._segments3d), 20)
+        self.assertEqual(len(discs.get_array()), 15)
+        areas = np.sort(discs.get_sizes())
+        np.testing.assert_allclose(areas[10:], 4 * areas[0])
+
     def test_a_path_is_read(self):
         for read_here, read_before in zip(plot.cooling(self.recording.path).lines,
                                           plot.cooling(self.recording).lines):
@@ -174,18 +185,37 @@ class PicturesOfAMixture(InFolder):
                                       self.sums.t_tr[1:, 0] / self.sums.t_rot[1:, 0])
 
 
+class PicturesOfRoughSpheres(InFolder):
+    def test_rotation_has_three_components(self):
+        self.addCleanup(pyplot.close, "all")
+        path = self.folder / "run.h5"
+        scene = gas(output={"file": str(path)}, until={"collisions_per_needle": 3})
+        scene["needles"] = {"box": 8.0, "seed": 3}
+        scene["collisions"] = {"epsilon": 0.9, "beta": 0.5}
+        species = [{"name": "solid", "count": 60, "length": 0, "diameter": 0.5},
+                   {"name": "hollow", "count": 60, "length": 0, "diameter": 1, "inertia": 1 / 6}]
+        with Simulation({**scene, "species": species}) as sim:
+            sim.run()
+        lines = plot.cooling(path).lines
+        _, of_all, _, solid, _, hollow = (line.get_ydata() for line in lines)
+        np.testing.assert_allclose((solid + hollow) / 2, of_all, rtol=1e-12)
+        for line in (*plot.temperatures(path).lines, *plot.temperature_ratio(path).lines):
+            self.assertTrue(np.all(line.get_ydata() > 0))
+
+
 class PicturesWithoutTheory(InFolder):
-    """Of bodies that differ within a species, and of fixed ones, whose cooling no theory follows."""
+    """Of bodies that differ within a species, of fixed ones, and of gases that more than collisions
+    acts on, whose cooling no theory follows."""
 
     def setUp(self):
         super().setUp()
         self.addCleanup(pyplot.close, "all")
 
-    def recorded(self, *species):
+    def recorded(self, *species, **effects):
         path = self.folder / "run.h5"
         scene = gas(output={"file": str(path)}, until={"collisions_per_needle": 3})
         scene["needles"] = {"box": 8.0, "seed": 3}
-        with Simulation({**scene, "species": list(species)}, force=True) as sim:
+        with Simulation({**scene, **effects, "species": list(species)}, force=True) as sim:
             sim.run()
             return path, sim.gas
 
@@ -208,6 +238,20 @@ class PicturesWithoutTheory(InFolder):
                                                            r"$T_{\rm rot}$ of 60 needles"])
         with self.assertRaisesRegex(needlework.InputError, "differ within a species"):
             needlework.theory.mixture_rates(of_run, 1, 1)
+
+    def test_what_is_sheared_grows_or_is_driven_has_points_alone(self):
+        for effects in ({"shear": {"rate": 0.5}}, {"driving": {"growth": {"rate": 0.01}}},
+                        {"driving": {"andersen": {"rate": 1.0, "temperature": 1.0}}},
+                        {"walls": [{"axis": "z", "side": "both"}]}):
+            with self.subTest(effects):
+                path, of_run = self.recorded({"name": "balls", "count": 60, "length": 0,
+                                              "diameter": 0.5}, **effects)
+                self.assertEqual(of_run.undisturbed_until, 0)
+                with read(path) as recording:
+                    self.assertEqual(recording.gas.undisturbed_until, 0)
+                    series = recording.series
+                self.assert_points_alone(plot.cooling(path), ["60 needles"])
+                self.assert_points_alone(plot.cooling(series, gas=of_run), ["60 needles"])
 
     def test_a_mixture_with_fixed_ones_has_points_of_those_that_move(self):
         path, of_run = self.recorded({"name": "light", "count": 60},

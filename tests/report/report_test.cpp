@@ -204,6 +204,30 @@ TEST_F(Report, DrawsNeedlesWhereTheyAre) {
   EXPECT_NEAR(page.numbers<float>(frames["frames"][0]["alignment"])[0], 0, 1e-6);  // at rest
 }
 
+TEST_F(Report, SaysHowBodiesTurnAndWhetherTheyAreSheared) {
+  const auto scene_of = [&](double beta) {
+    const Scene scene = parse_scene(
+        R"(needles.box = 5
+until.time = 1
+shear.rate = -0.5
+species = [{ name = "balls", count = 2, length = 0, diameter = 1 },
+           { name = "rods", count = 1, diameter = 1 }]
+pairs = [{ between = ["balls", "balls"], beta = )" +
+            std::to_string(beta) + " }]\n",
+        "scene", {});
+    io::Writer writer(path("run.h5"), true, scene, {"scalar", 1, 1.0});
+    writer.write_frame(totals(0), state(3, 0));
+    writer.close();
+    return page_of({"run.h5"}).json["sections"][0]["scene"];
+  };
+  for (const auto& [beta, of_spheres] : {std::pair{-1.0, 0}, {0.5, 3}}) {
+    const json scene = scene_of(beta);
+    EXPECT_EQ(scene["shear_rate"], -0.5);
+    EXPECT_EQ(scene["species"][0]["rotations"], of_spheres);
+    EXPECT_EQ(scene["species"][1]["rotations"], 2);
+  }
+}
+
 TEST_F(Report, ShowsWallsWhereTheyAreAndNeedlesBeyondOpenSides) {
   write_run("run.h5", "walls", 3, 2,
             "forces.gravity = [1, 0, -2]\n"

@@ -89,6 +89,32 @@ until.collisions_per_needle = 1000
 output = { file = "growing.h5", observables = ["contact_network"] }
 species = [{ name = "balls", count = 60, length = 0, diameter = 0.4 }]
 `);
+  write("growing_grid.toml", `scene = "growing.toml"
+seeds = [1, 2]
+out = "growing"
+[parameters]
+"driving.growth.rate" = [0.1, 0.2]
+"until.collisions_per_needle" = 5
+`);
+  needlework("sweep", "growing_grid.toml", "--quiet");
+  needlework("report", "growing/summary.h5", "-o", "growing_sweep.html");
+  reportOf("sheared", `needles.box = 6
+shear.rate = 0.5
+collisions = { epsilon = 0.8, tc_relative = 1e-3 }
+until.time = 5
+output = { file = "sheared.h5", series_every = 0.5, observables = ["distributions"] }
+species = [{ name = "balls", count = 60, length = 0, diameter = 0.8 }]
+`);
+  reportOf("posts", `needles.box = 6
+until.time = 3
+output = { file = "posts.h5", series_every = 0.5, observables = ["distributions"] }
+species = [
+  { name = "balls", count = 60, length = 0, diameter = 0.5 },
+  { name = "rods", count = 60 },
+  { name = "posts", count = 20, length = 0, diameter = 0.8, fixed = true },
+]
+pairs = [{ between = ["balls", "balls"], beta = 0.5 }]
+`);
   needlework("report", "gas.h5", "-o", "gas.html");
   needlework("report", "gas.h5", "other.h5", "sweep/summary.h5", "bench.json", "-o", "all.html");
   samples = Number(needlework("info", "gas.h5").match(/(\d+) samples/)[1]);
@@ -425,6 +451,49 @@ show("walls have pressures, profiles with their means, and a budget of energy th
   assert.equal(slabs, 76);
   const needles = (sum * 25 * 9.5) / slabs;
   assert.ok(needles > 15 && needles <= 60, `${needles}`);
+});
+
+test("what growth and shear give is in the budget of energy, which closes", async () => {
+  for (const [name, sources] of [["growing", /collisions.*cooling.*growth.*change/], ["sheared", /collisions.*shear.*change/]]) {
+    const { page, close } = await open(browser, `${name}.html`);
+    const put = chart(page, "Energy put in and taken out");
+    assert.match(await put.locator(".legend").textContent(), sources);
+    assert.match(await put.locator("figcaption").textContent(), /met to [\d.]+×10⁻¹\S\./, name);
+    await close();
+  }
+});
+
+show("a sweep of bodies that grow has the budget and the numbers of growth", ["growing_sweep.html"], async ({ page, complaints }) => {
+  for (const title of [
+    "Energy put in: collisions", "Energy put in: growth", "Energy put in: cooling", "Growth: packing fraction", "Growth: pressure",
+    "Network: contacts", "Network: rattlers",
+  ]) {
+    assert.equal(await chart(page, title).count(), 1, title);
+  }
+  assert.equal(await chart(page, "Ratios of the temperatures").count(), 0);
+  assert.deepEqual(complaints, []);
+});
+
+show("smooth spheres have no ratio of temperatures and no energy of rotation", ["sheared.html"], async ({ page }) => {
+  for (const title of ["Ratio of the temperatures", "Energy of rotation"]) assert.equal(await chart(page, title).count(), 0, title);
+  assert.doesNotMatch(await page.locator(".figures").textContent(), /∞|Infinity|T_tr\/T_rot/);
+  assert.match(await page.locator(".facts").first().textContent(), /Shearrate 0.5/);
+  assert.equal(await chart(page, "Conservation of momentum").count(), 1);
+});
+
+show("energy of rotation is compared with as many Gaussian components as bodies have", ["posts.html"], async ({ page }) => {
+  for (const [name, density] of [["balls", (e) => 2 * Math.sqrt(e / Math.PI) * Math.exp(-e)], ["rods", (e) => Math.exp(-e)]]) {
+    const rows = await tableOf(chart(page, `Energy of rotation: ${name}`));
+    const near = rows.filter(([e]) => e > 0.5 && e < 3);
+    assert.ok(near.length > 20);
+    for (const row of near) assert.ok(Math.abs(row.at(-1) / density(row[0]) - 1) < 1e-2, `${name}: ${row}`);
+  }
+});
+
+show("fixed bodies take up momentum, which is then not conserved", ["posts.html"], async ({ page, complaints }) => {
+  assert.equal(await chart(page, "Conservation of momentum").count(), 0);
+  assert.match(await page.locator(".facts").first().textContent(), /Species balls[^:]*: [^:]*T_rot 1.*Species posts/);
+  assert.deepEqual(complaints, []);
 });
 
 show("a sweep has pressures, hits and the budget of its members", ["shaken_sweep.html"], async ({ page, complaints }) => {

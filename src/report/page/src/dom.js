@@ -1,14 +1,15 @@
 // Elements of the page.
 
 /** Makes an element. Attributes that are functions listen to the event of that name; those that are
- * false or undefined are left out. Children are elements or texts, never markup. */
+ * false or undefined are left out. Children are elements or texts, never markup; those that are null,
+ * undefined or false are left out. */
 export function element(tag, attributes = {}, ...children) {
   const made = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
     if (typeof value === "function") made.addEventListener(name, value);
     else if (value !== false && value !== undefined) made.setAttribute(name, value);
   }
-  made.append(...children.flat().filter((child) => child !== null && child !== undefined));
+  made.append(...children.flat().filter((child) => child !== null && child !== undefined && child !== false));
   return made;
 }
 

@@ -4,6 +4,7 @@ import { column, numbers } from "../data.js";
 import { curvesChart } from "../charts/curves.js";
 import { numberText } from "../numbers.js";
 import { factsOfRun, resultsOfRun } from "./facts.js";
+import { compact, divided } from "./series.js";
 
 /** Elements of the section, for at least two runs with totals. */
 export function comparedSection(runs) {
@@ -11,10 +12,7 @@ export function comparedSection(runs) {
     const energy = column(datasets.energy);
     return energy.map((e) => e / energy[0]);
   }));
-  const ratios = runs.map((run, n) => curveOf(run, n, (datasets) => {
-    const rotation = column(datasets.t_rot);
-    return column(datasets.t_tr).map((t, row) => t / rotation[row]);
-  }));
+  const ratios = compact(runs.map((run, n) => curveOf(run, n, ({ t_tr, t_rot }) => divided(column(t_tr), column(t_rot)))));
   const axis = { label: "time", log: true };
   return [
     factsTable(runs),
@@ -26,7 +24,7 @@ export function comparedSection(runs) {
         title: "Cooling curves", caption: "Energy per needle, divided by that at the start.",
         x: axis, y: { label: "E/E(0)", log: true }, curves: energies,
       }),
-      curvesChart({
+      ratios.length > 0 && curvesChart({
         title: "Ratios of the temperatures", caption: "Of translation to rotation.",
         x: axis, y: { label: "T_tr/T_rot", log: true }, curves: ratios,
       }),

@@ -55,10 +55,11 @@ function ofOneSpecies({ k, length, diameter, mass, differ }) {
   ];
 }
 
-function speciesFact({ name, count, fixed, differ, length, diameter, mass, k, t_tr, t_rot }) {
+function speciesFact({ name, count, fixed, differ, length, diameter, mass, k, t_tr, t_rot, rotations }) {
   const width = diameter > 0 ? { diameter } : {};
-  const turns = length > 0 ? { k, "T_tr": t_tr, "T_rot": t_rot } : { "T_tr": t_tr };
-  const properties = { length, ...width, ...(fixed ? {} : { mass, ...turns }) };
+  const axis = length > 0 ? { k } : {};
+  const turns = rotations > 0 ? { "T_rot": t_rot } : {};
+  const properties = { length, ...width, ...(fixed ? {} : { mass, ...axis, "T_tr": t_tr, ...turns }) };
   const text = Object.entries(properties).map(([key, value]) => `${key} ${numberText(value)}`);
   const kind = [fixed ? "fixed" : "", differ ? "means" : ""].filter(Boolean).map((word) => `, ${word}`).join("");
   return [`Species ${name}`, `${numberText(count)} needles${kind}: ${text.join(", ")}`];
@@ -108,6 +109,17 @@ export function weightOn({ axis, high }, { scene, frames }) {
   const bears = high ? gravity > 0 : gravity < 0;
   const alone = openSides(frames).some((side) => side.axis === axis);
   return bears && alone ? frames.needles_in_file * scene.mass * Math.abs(gravity) : null;
+}
+
+/** How many rotational degrees of freedom the bodies have, of a mixture those of one species; undefined
+ * where the file does not say. */
+export function rotationsOf(scene, species) {
+  return (species === undefined ? scene : scene?.species.find(({ name }) => name === species))?.rotations;
+}
+
+/** What puts energy in, as the budget of energy names it, in words. */
+export function sourceName(name) {
+  return name === "pairs" ? "collisions" : name.replaceAll("_", " ");
 }
 
 /** The area of the face of the box at which a wall is. */
@@ -192,6 +204,7 @@ export function factsOfRun({ scene, parameters, frames }) {
       ["Boundaries", boundaryText(frames)],
       ...scene.walls.map(wallFact),
       ["Gravity", gravityText(scene.gravity)],
+      ["Shear", scene.shear_rate === null ? null : `rate ${numberText(scene.shear_rate)}, flow along x that grows with y`],
       ...drivingFacts(scene.driving),
       ["Density n L³", openSides(frames).length || scene.packing_fraction !== null ? null : (frames.needles_in_file * scene.length ** 3) / volume, when],
       ["Restitution ε, β", `${numberText(scene.epsilon)}, ${numberText(scene.beta)}`],
@@ -235,7 +248,7 @@ export function resultsOfRun(run) {
     ["E/E(0)", energy, beside(last("energy"), theory("energy"))],
     ["T_tr", last("t_tr"), beside(last("t_tr"), theory("t_tr"))],
     ["T_rot", last("t_rot"), beside(last("t_rot"), theory("t_rot"))],
-    ["T_tr/T_rot", last("t_tr") / last("t_rot"), scene?.ratio_of_theory ? `theory, late: ${numberText(scene.ratio_of_theory)}` : ""],
+    ["T_tr/T_rot", last("t_rot") > 0 ? last("t_tr") / last("t_rot") : null, scene?.ratio_of_theory ? `theory, late: ${numberText(scene.ratio_of_theory)}` : ""],
     ["Collisions", collisions, `${numberText((2 * collisions) / frames.needles_in_file)} per needle`],
     ["Elastic by the t_c rule", last("tc_collisions"), collisions ? `${numberText((100 * last("tc_collisions")) / collisions, 3)} %` : ""],
     ["S", order],

@@ -17,13 +17,17 @@ function meanOf(density, low, high) {
   return sum / parts;
 }
 
+/** Of the energy in units of the temperature, of 2 or 3 Gaussian components; null of none. */
+export function energyOf(components) {
+  if (components === 3) {
+    return { name: "Gaussian", density: (e) => (2 / Math.sqrt(Math.PI)) * Math.sqrt(e) * Math.exp(-e) };
+  }
+  return components === 2 ? { name: "Gaussian", integral: (e) => 1 - Math.exp(-e) } : null;
+}
+
 export const laws = {
   normal: { name: "Gaussian", density: (v) => Math.exp((-v * v) / 2) / Math.sqrt(2 * Math.PI) },
-  energyOfTranslation: {
-    name: "Gaussian",
-    density: (e) => (2 / Math.sqrt(Math.PI)) * Math.sqrt(e) * Math.exp(-e),
-  },
-  energyOfRotation: { name: "Gaussian", integral: (e) => 1 - Math.exp(-e) },
+  energyOfTranslation: energyOf(3),
   randomDirectors: { name: "random directors", integral: (q) => Math.sqrt(Math.max(0, q + 1) / 3) },
   angle: { name: "equilibrium", integral: (a) => (a - Math.sin(a) * Math.cos(a)) / Math.PI },
   normalVelocity: { name: "equilibrium", integral: (x) => 1 - Math.exp((-x * x) / 2) },

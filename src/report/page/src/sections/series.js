@@ -9,9 +9,9 @@ export function totals(groups) {
   return { t: numbers(time), of: (name, component) => column(datasets[name], component) };
 }
 
-/** Those curves that there are. */
+/** Those curves that there are, with a number to show. */
 export function compact(curves) {
-  return curves.filter((curve) => curve && curve.x && curve.y);
+  return curves.filter((curve) => curve && curve.x && curve.y?.some(Number.isFinite));
 }
 
 /** Samples at multiples of one interval belong to a steady state, which is shown on a linear axis. */

@@ -1,7 +1,8 @@
 // Charts of a run at one time, as a table: histograms, profiles and correlations.
 import { openSides } from "../boundaries.js";
 import { numbers, rowOf } from "../data.js";
-import { laws, overBins, poisson } from "./laws.js";
+import { rotationsOf } from "./facts.js";
+import { energyOf, laws, overBins, poisson } from "./laws.js";
 import { isGeometric } from "./series.js";
 import { largestEigenvalue } from "./timelines.js";
 
@@ -127,16 +128,22 @@ const snapshots = [
 export function snapshotsOf(run) {
   // Of a mixture each is of each species, or of each two.
   const parts = (run.parts ?? []).flatMap((part) =>
-    snapshotsOf({ groups: part.groups, frames: run.frames }).map((one) => ({
+    snapshotsOfGroups({ groups: part.groups, frames: run.frames }, rotationsOf(run.scene, part.name)).map((one) => ({
       ...one, chart: { ...one.chart, title: `${one.chart.title}: ${part.name}` },
     })),
   );
-  return [...snapshotsOfGroups(run), ...parts];
+  return [...snapshotsOfGroups(run, rotationsOf(run.scene)), ...parts];
 }
 
-function snapshotsOfGroups(run) {
+// A histogram in which nothing was ever counted is left out, as that of rotation of smooth spheres.
+function isThere({ group, datasets: [[name]], histogram }, groups) {
+  const dataset = groups[group]?.datasets[name];
+  return dataset && !(histogram && numbers(dataset).every((count) => !(count > 0)));
+}
+
+function snapshotsOfGroups(run, rotations) {
   return snapshots
-    .filter(({ group, datasets }) => run.groups[group]?.datasets[datasets[0][0]])
+    .filter((spec) => isThere(spec, run.groups))
     .map((spec) => {
       const group = run.groups[spec.group];
       const log = spec.log ?? "";
@@ -151,15 +158,15 @@ function snapshotsOfGroups(run) {
           x: { label: spec.x, log: log.includes("x") },
           y: { label: spec.y, log: log.includes("y") },
         },
-        curvesAt: (row) => curvesAt(spec, group, row, means),
+        curvesAt: (row) => curvesAt(spec, group, row, means, rotations),
         rangeAt: (row) => (spec.averaged ? rangeOfLayer(group, row, run.frames) : undefined),
       };
     });
 }
 
-function curvesAt(spec, group, row, means) {
+function curvesAt(spec, group, row, means, rotations) {
   const curves = curvesOfRow(spec, group, (dataset) => rowOf(dataset, row));
-  const law = lawOf(spec, group, curves);
+  const law = lawOf(spec, group, curves, rotations);
   const drawn = means.length ? curves.map((curve) => ({ ...curve, points: "alone" })) : curves;
   const all = [...drawn, ...means, law].filter(Boolean);
   return spec.untilEmpty ? all.map((curve) => shortened(curve, lastFilled(curves) + 2)) : all;
@@ -296,7 +303,7 @@ function ordinates(spec, group, values) {
   return Float64Array.from(values, (value, n) => value / sum / (borders ? borders[n + 1] - borders[n] : 1));
 }
 
-function lawOf(spec, group, curves) {
+function lawOf(spec, group, curves, rotations) {
   const { x, y } = curves[0];
   const line = { x, colour: -1, dashed: true, beside: true };
   if (spec.level) return { ...line, beside: false, name: spec.level[1], y: x.map(() => spec.level[0]) };
@@ -305,6 +312,6 @@ function lawOf(spec, group, curves) {
     return { ...line, name: "Poisson", y: poisson(mean, x.length) };
   }
   if (!spec.law) return null;
-  const law = laws[spec.law];
-  return { ...line, name: law.name, y: overBins(numbers(group.datasets[spec.borders]), law) };
+  const law = spec.law === "energyOfRotation" ? energyOf(rotations) : laws[spec.law];
+  return law && { ...line, name: law.name, y: overBins(numbers(group.datasets[spec.borders]), law) };
 }

@@ -3,7 +3,8 @@ import { element } from "../dom.js";
 import { column, numbers } from "../data.js";
 import { curvesChart } from "../charts/curves.js";
 import { numberText } from "../numbers.js";
-import { factList, textBehind } from "./facts.js";
+import { factList, sourceName, textBehind } from "./facts.js";
+import { compact, divided } from "./series.js";
 
 const results = [
   ["time", "Time at the end", "time"],
@@ -14,20 +15,27 @@ const results = [
   ["t_rot", "Rotational temperature at the end", "energy"],
 ];
 
-// Those of each wall, and of each effect that gives energy.
+// Those of each wall, of each effect that gives energy, and of bodies that grow: of a name the first
+// that it matches, in which the last part is in words.
 const families = [
   [/^hits_(.)_(low|high)$/, "Hits on the wall at $1 $2", "hits"],
   [/^pressure_(.)_(low|high)$/, "Pressure on the wall at $1 $2", "energy / volume"],
   [/^budget_(.)_(low|high)$/, "Energy put in: wall at $1 $2", "energy per needle"],
-  [/^budget_pairs$/, "Energy put in: collisions", "energy per needle"],
-  [/^budget_(thermostat|kicks)$/, "Energy put in: $1", "energy per needle"],
+  [/^budget_(.+)$/, "Energy put in: $1", "energy per needle"],
+  [/^growth_(.+)$/, "Growth: $1"],
+  [/^network_(.+)$/, "Network: $1"],
 ];
 
 /** All results that have charts: [name, title, label]. */
 function chartedResults(sweep) {
-  const more = Object.keys(sweep.results).flatMap((name) => families
-    .filter(([pattern]) => pattern.test(name))
-    .map(([pattern, title, label]) => [name, name.replace(pattern, title), label]));
+  const more = Object.keys(sweep.results).flatMap((name) => {
+    const family = families.find(([pattern]) => pattern.test(name));
+    if (!family) return [];
+    const [pattern, title, label] = family;
+    const [, word, side] = name.match(pattern);
+    const text = sourceName(word);
+    return [[name, title.replace("$1", text).replace("$2", side), label ?? text]];
+  });
   return [...results.filter(([name]) => sweep.results[name]), ...more];
 }
 
@@ -108,22 +116,20 @@ function seriesCharts(sweep) {
     const share = (values) => values.map((v) => v / y[0]);
     return { y: share(y), low: share(low), high: share(high) };
   };
-  const ratio = ({ quantities }) => {
-    const rotation = column(quantities.t_rot.mean);
-    return { y: column(quantities.t_tr.mean).map((t, n) => t / rotation[n]) };
-  };
+  const ratio = ({ quantities }) => ({ y: divided(column(quantities.t_tr.mean), column(quantities.t_rot.mean)) });
   const curves = (valuesOf) =>
     sweep.series.map((series, point) => ({
       name: labelOf(sweep, point), x: numbers(series.time), ...valuesOf(series), colour: point,
     }));
+  const ratios = compact(curves(ratio));
   return [
     curvesChart({
       title: "Cooling curves", caption: "Mean energy per needle at each point, divided by that at the start, with standard errors.",
       x: { label: "time", log: true }, y: { label: "E/E(0)", log: true }, curves: curves(scaled),
     }),
-    curvesChart({
+    ratios.length > 0 && curvesChart({
       title: "Ratios of the temperatures", caption: "Mean T_tr divided by mean T_rot at each point.",
-      x: { label: "time", log: true }, y: { label: "T_tr/T_rot", log: true }, curves: curves(ratio),
+      x: { label: "time", log: true }, y: { label: "T_tr/T_rot", log: true }, curves: ratios,
     }),
   ];
 }

@@ -81,10 +81,11 @@ function rateOfCollisions({ groups, count }) {
   return [{ name: "rate / √T_tr", x: t, y: rate, colour: 0, points: true }];
 }
 
-// Along the axes along which nothing from outside acts: walls do along theirs, and a thermostat along
-// all. Kicks leave the total as it is.
+// Along the axes along which nothing from outside acts: walls and gravity do along theirs, a thermostat
+// and fixed bodies along all. Kicks leave the total as it is.
 function momentum({ groups, count, scene, frames }) {
-  const free = scene?.driving.andersen ? [] : [0, 1, 2].filter((axis) => frames.periodic[axis]);
+  const all = scene?.driving.andersen || scene?.species.some(({ fixed }) => fixed);
+  const free = all ? [] : [0, 1, 2].filter((axis) => frames.periodic[axis] && !scene?.gravity[axis]);
   if (free.length === 0) return [];
   const { t, of } = totals(groups);
   const mass = scene?.mass ?? 1;
@@ -160,12 +161,6 @@ function pressureTensor({ groups }) {
   return [["xx", 1], ["yy", 1], ["zz", 1], ["yx", -1]].map(([indices, sign], n) => ({
     name: `${sign < 0 ? "-" : ""}P_${indices}`, x: numbers(time), y: sum(indices, sign), colour: n, points: true,
   }));
-}
-
-// None of a gas that is not sheared.
-function viscosity(run) {
-  const [curve] = plain("pressure_tensor", [["viscosity", "-P_yx / rate"]])(run);
-  return curve.y.some(Number.isFinite) ? [curve] : [];
 }
 
 // Since the start, and between a sample and the one before it.
@@ -312,7 +307,7 @@ const timelines = [
   },
   {
     group: "totals", title: "Conservation of momentum", y: "thermal momenta", log: "x", curves: momentum,
-    caption: "Change of the total momentum since the start along the periodic axes, in units of its thermal size √(N m T_tr(0)). Rounding alone changes it.",
+    caption: "Change of the total momentum since the start along the periodic axes without gravity, in units of its thermal size √(N m T_tr(0)). Rounding alone changes it.",
   },
   ...wallTimelines,
   {
@@ -321,7 +316,7 @@ const timelines = [
   },
   {
     group: "species", title: "Rotational temperature of each species", y: "energy", log: "xy",
-    curves: ofSpecies("t_rot", "T_rot"), caption: "Mean energy of rotation, with kinetic theory.",
+    curves: ofSpecies("t_rot", "T_rot"), caption: "Mean energy of rotation, of rough spheres two thirds of it, with kinetic theory.",
   },
   {
     group: "species", title: "Collisions of each two species", y: "collisions", log: "xy",
@@ -337,7 +332,7 @@ const timelines = [
   },
   {
     group: "pressure_tensor", title: "Viscosity", y: "energy time / volume", log: "x", robust: true,
-    curves: viscosity,
+    curves: plain("pressure_tensor", [["viscosity", "-P_yx / rate"]]), // of a gas that is sheared
     caption: "Mean since the sample before.",
   },
   {

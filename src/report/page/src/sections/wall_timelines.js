@@ -2,7 +2,7 @@
 import { column, numbers } from "../data.js";
 import { sideName } from "../boundaries.js";
 import { numberText } from "../numbers.js";
-import { areaOf, wallsOf, weightOn } from "./facts.js";
+import { areaOf, sourceName, wallsOf, weightOn } from "./facts.js";
 import { byPhase } from "./phases.js";
 import { totals } from "./series.js";
 
@@ -39,10 +39,11 @@ function pressures(run) {
 // What each effect has put into the energy per needle since the start.
 function sourcesOfEnergy(run) {
   const { datasets } = run.groups.energy_budget;
-  const walls = datasets.walls ? wallsOf(run).map((wall, n) => [`wall at ${sideName(wall)}`, column(datasets.walls, n)]) : [];
-  const single = [["pairs", "collisions"], ["thermostat", "thermostat"], ["kicks", "kicks"], ["gravity", "gravity"], ["velocities_set", "velocities set"]]
-    .filter(([name]) => datasets[name])
-    .map(([name, text]) => [text, column(datasets[name])]);
+  const { pairs, walls: ofWalls, velocities_set: ofCaller, ...effects } = datasets;
+  const single = Object.entries({ pairs, ...effects, velocities_set: ofCaller })
+    .filter(([, dataset]) => dataset)
+    .map(([name, dataset]) => [sourceName(name), column(dataset)]);
+  const walls = ofWalls ? wallsOf(run).map((wall, n) => [`wall at ${sideName(wall)}`, column(ofWalls, n)]) : [];
   return [...single, ...walls].filter(([text, values]) => text !== "velocities set" || values.some((value) => value !== 0));
 }
 
