@@ -77,7 +77,7 @@ TEST(LoadedScene, HasTheBodiesOfTheFile) {
   write_state(simulation, drawn.scene, {}, file, false);
 
   const LoadedScene again = complete_scene(parse_scene(text, "again.toml"));
-  EXPECT_EQ(warning_of_unknown_bodies(again), "");
+  EXPECT_EQ(warning_of_state(again), "");
   const Simulation continued(again.scene, *again.initial);
   EXPECT_EQ(continued.totals().t_rot, simulation.totals().t_rot);
   EXPECT_EQ(continued.totals().energy, simulation.totals().energy);
@@ -99,7 +99,7 @@ TEST(LoadedScene, WarnsOfAFileThatDoesNotSayItsBodies) {
   writer.close();
   const std::string text = "initial.file = \"" + file + "\"\nuntil.time = 1\n";
   const LoadedScene loaded = complete_scene(parse_scene(text, "s.toml"));
-  const std::string warning = warning_of_unknown_bodies(loaded);
+  const std::string warning = warning_of_state(loaded);
   EXPECT_TRUE(test::contains(warning, ": says no length, no diameter, no k of its bodies"));
   // What was assumed may be said otherwise.
   const Scene other = complete_scene(parse_scene(text + "needles.k = 2", "s.toml")).scene;
