@@ -84,6 +84,13 @@ struct Species {
   double inertia() const {
     return has_axis() ? mass * (length * length) / (2 * k) : q * mass * (diameter * diameter) / 4;
   }
+  /// Gives it this moment of inertia: by k or, of a sphere, q. [m L^2]
+  void set_inertia(double inertia) {
+    if (has_axis())
+      k = mass * (length * length) / (2 * inertia);
+    else
+      q = 4 * inertia / (mass * (diameter * diameter));
+  }
   /// The mean square of the angular velocity at this rotational temperature. [1 / time^2]
   double w2_at(double its_t_rot) const {
     if (has_axis()) return 4 * k * its_t_rot / (mass * (length * length));
@@ -96,6 +103,8 @@ struct Species {
   double greatest_length() const { return sizes ? sizes->length.greatest : length; }
   /// The mass as files and other programs have it: infinite of fixed ones. [m]
   double mass_or_infinity() const { return fixed ? std::numeric_limits<double>::infinity() : mass; }
+  /// The moment of inertia likewise; 0 of smooth spheres. [m L^2]
+  double inertia_or_infinity() const { return fixed && turns() ? mass_or_infinity() : inertia(); }
   double volume() const;  ///< the mean [L^3]
   /// The means of length times diameter, and of the diameter squared. [L^2]
   double product() const { return sizes ? sizes->product : length * diameter; }

@@ -18,11 +18,15 @@ struct Bodies {
   std::vector<double> diameter = {};  ///< 0: thin needles [L]
   std::vector<double> mass = {};      ///< [m]
   std::vector<double> k = {};         ///< m L^2 / (2 I) [1]
-  std::vector<double> q = {};         ///< 4 I / (m D^2) of rough spheres, 0 of others [1]
+  std::vector<double> q = {};         ///< 4 I / (m D^2) of rough spheres, 0 of others; counts
+                                      ///< where `inertia` is empty [1]
+  std::vector<double> inertia = {};   ///< 0 of smooth spheres, infinite of fixed bodies that turn;
+                                      ///< growth changes k and q, but not this [m L^2]
 
   /// Number of species; 0 if the file says nothing.
   std::size_t species() const {
-    return std::max({names.size(), length.size(), diameter.size(), mass.size(), k.size()});
+    return std::max({names.size(), length.size(), diameter.size(), mass.size(), k.size(), q.size(),
+                     inertia.size()});
   }
 };
 

@@ -257,6 +257,10 @@ def _bodies(group: h5py.Group) -> Bodies:
         return np.atleast_1d(item[()]) if item.dtype.kind in "iuf" else np.array([])
 
     known = {"name": column("species"), **{name: column(name) for name in NUMBERS_OF_BODIES}}
+    by_assumed = any((item := dataset(name)) is not None and "assumed" in item.attrs
+                     for name in ("length", "mass", "k"))
+    if by_assumed or len(known["inertia"]) != len(known["length"]):
+        known["inertia"] = np.array([])
     if dataset("diameter") is None:
         known["diameter"] = np.zeros(len(known["length"]))
     masses = _get(group, "mass")

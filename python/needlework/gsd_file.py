@@ -10,7 +10,7 @@ import numpy as np
 from . import _core
 from .errors import InputError, IoError
 from .reading import Recording, read
-from .state import OWN_NUMBERS, Bodies, State
+from .state import NUMBERS_OF_BODIES, OWN_NUMBERS, Bodies, State
 from .tilt import counted, reduced_tilt
 from .values import Values
 
@@ -38,8 +38,8 @@ def to_gsd(source: Union[Recording, str, os.PathLike, Any], path: str, frames: A
     by half the box, because its boxes have their centre in the origin. Its quaternion ``orientation``
     turns (0, 0, 1) into the director, and its ``type_shapes`` are thin ellipsoids along that axis, so
     that OVITO draws needles; of rods of finite width they are meshes of cylinders with spherical
-    caps, or spheres, and ``diameter`` is theirs. Length, diameter, mass and k of the types are
-    in ``log``, in double precision; where bodies of a type differ they are means, and length,
+    caps, or spheres, and ``diameter`` is theirs. Length, diameter, mass, k and inertia of the types
+    are in ``log``, in double precision; where bodies of a type differ they are means, and length,
     diameter, mass and inertia of each are in ``log["particles/length"]`` and so on. Masses of fixed
     bodies are infinite. The species of a mixture are its types. GSD has no
     angular velocity: it is in ``log["particles/angular_velocity"]``, in double precision, and the
@@ -188,7 +188,7 @@ def _bodies_of(snapshot: Any) -> tuple[Bodies, dict[str, np.ndarray]]:
         return np.array([np.mean(numbers) for numbers in found]) if whole else np.array([])
 
     known = {name: np.asarray(log[name], dtype=float)
-             for name in ("length", "diameter", "mass", "k") if name in log}
+             for name in NUMBERS_OF_BODIES if name in log}
     own = {name: np.asarray(log[f"particles/{name}"], dtype=float) for name in OWN_NUMBERS
            if f"particles/{name}" in log}
     sizes = [_size_of(shape) for shape in particles.type_shapes or []]
@@ -249,18 +249,15 @@ def _snapshot(frame: Any, gas: Any, names: list[str]) -> Any:
     collisions = frame.collisions if hasattr(frame, "collisions") else frame.totals.collisions
     snapshot.configuration.step = collisions
     # One number, or one for each species of a mixture.
-    lengths, masses, shapes = (np.atleast_1d(value) for value in (gas.length, gas.mass, gas.k))
-    diameters = np.atleast_1d(gas.get("diameter", np.zeros_like(lengths)))
-    scale = frame.scale
-    lengths, diameters, shapes = lengths * scale, diameters * scale, shapes * scale**2
-    species = frame.species if len(lengths) > 1 else np.zeros(count, dtype=np.uint8)
+    columns = {name: np.atleast_1d(gas[name]) for name in ("length", "mass", "k")}
+    columns["diameter"] = np.atleast_1d(gas.get("diameter", np.zeros_like(columns["length"])))
     state = frame.state
-    own = [name for name in OWN_NUMBERS if name in state]
-    if own:
-        length, diameter, mass, inertia = (state.numbers(name) for name in OWN_NUMBERS)
-    else:
-        length, diameter, mass = (each[species] for each in (lengths, diameters, masses))
-        inertia = np.where(length > 0, mass, 0) * length**2 / (2 * shapes[species])
+    bodies = Bodies({**Bodies.of(columns).grown(frame.scale), **state.bodies})
+    lengths, diameters, masses = bodies["length"], bodies["diameter"], bodies["mass"]
+    species = frame.species if len(lengths) > 1 else np.zeros(count, dtype=np.uint8)
+    own = {name: np.asarray(state[name]) for name in OWN_NUMBERS if name in state}
+    needles = State({"species": species, "bodies": bodies, **own})
+    length, diameter, mass, inertia = (needles.numbers(name) for name in OWN_NUMBERS)
     low, high = _bounds(frame, np.max(length + diameter, initial=0) / 2)
     flow = state.get("flow")
     position, image, tilt = frame.position, frame.image, 0.0
@@ -279,17 +276,17 @@ def _snapshot(frame: Any, gas: Any, names: list[str]) -> Any:
     particles.velocity = frame.velocity
     particles.orientation = quaternions(frame.orientation)
     particles.mass = mass
-    particles.moment_inertia = np.stack([inertia, inertia, np.zeros(count)], axis=1)
+    particles.moment_inertia = np.stack([inertia, inertia, np.where(length > 0, 0, inertia)], axis=1)
     particles.diameter = np.where(diameter > 0, diameter, length)
     snapshot.log = {"particles/angular_velocity": np.asarray(frame.angular_velocity),
                     "time": np.array([frame.time]),
-                    "length": lengths.astype(float), "diameter": diameters.astype(float),
-                    "mass": masses.astype(float), "k": shapes.astype(float),
+                    **{name: bodies[name].astype(float) for name in NUMBERS_OF_BODIES
+                       if name in bodies},
                     "periodic": frame.periodic.astype(np.uint8),
                     "edges": np.asarray(frame.box, dtype=float), "centre": centre}
     if "low" in state:
         snapshot.log["low"] = np.asarray(frame.low, dtype=float)
-    snapshot.log |= {f"particles/{name}": np.asarray(state[name]) for name in own}
+    snapshot.log |= {f"particles/{name}": numbers for name, numbers in own.items()}
     snapshot.log |= {name: np.array([number]) for name, number in (flow or {}).items()}
     return snapshot
 

@@ -10,7 +10,7 @@ import numpy as np
 from .values import Table
 
 ARRAYS = ("position", "velocity", "orientation", "angular_velocity", "image", "id", "species")
-NUMBERS_OF_BODIES = ("length", "diameter", "mass", "k")
+NUMBERS_OF_BODIES = ("length", "diameter", "mass", "k", "inertia")
 OWN_NUMBERS = ("length", "diameter", "mass", "inertia")
 """Arrays of a state whose bodies differ within a species."""
 
@@ -34,7 +34,10 @@ class Bodies(Table):
     mass: np.ndarray
     """Masses, infinite of fixed bodies, [species] [m]."""
     k: np.ndarray
-    """k = m L^2 / (2 I), [species]."""
+    """k = m L^2 / (2 I), which says nothing of spheres, [species]."""
+    inertia: np.ndarray
+    """Moments of inertia, 0 of smooth spheres, infinite of fixed bodies that turn,
+    [species] [m L^2]."""
 
     @classmethod
     def of(cls, columns: Mapping[str, Iterable]) -> Bodies:
@@ -85,7 +88,7 @@ class State(Table):
     mass: np.ndarray
     """Masses, infinite of fixed needles, [N] [m]."""
     inertia: np.ndarray
-    """Moments of inertia about axes normal to the director, 0 of spheres, [N] [m L^2]."""
+    """Moments of inertia about axes normal to the director, 0 of smooth spheres, [N] [m L^2]."""
 
     @classmethod
     def of(cls, arrays: Iterable[np.ndarray], bodies: Bodies, flow: Sequence[Any] | None = None,
@@ -107,7 +110,7 @@ class State(Table):
         if name in self._values:
             return self._values[name]
         bodies = self._values["bodies"]
-        if name != "inertia":
+        if name != "inertia" or "inertia" in bodies:
             known = np.asarray(bodies.get(name, np.nan), dtype=float)
         elif {"length", "mass", "k"} <= set(bodies):
             turns = bodies["length"] > 0

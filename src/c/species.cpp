@@ -54,7 +54,7 @@ int needlework_get_species_shape(needlework_simulation* simulation, size_t index
     require_species(composition, "index", index);
     const Species& body = composition[index];
     if (diameter) *diameter = body.diameter;
-    if (inertia) *inertia = body.fixed && body.turns() ? body.mass_or_infinity() : body.inertia();
+    if (inertia) *inertia = body.inertia_or_infinity();
   });
 }
 

@@ -25,7 +25,9 @@ inline constexpr double q_of_homogeneous = 0.4;
 /// The mass of a sphere is nowhere farther from its centre than its surface, but for rounding.
 inline constexpr double least_q = 1e-9 * (1 - 1e-12), greatest_q = 2.0 / 3 * (1 + 1e-12);
 inline double q_of(double mass, double diameter, double inertia) {
-  return 4 * inertia / (mass * (diameter * diameter));
+  Species out{.length = 0, .mass = mass, .diameter = diameter};
+  out.set_inertia(inertia);
+  return out.q;
 }
 /// The moment of inertia of a sphere. [m L^2]
 inline double inertia_of(double q, double mass, double diameter) {
@@ -95,10 +97,7 @@ class SizesOfBodies {
     species.length = sizes.length.mean;
     species.diameter = sizes.diameter.mean;
     species.mass = sizes.mass.mean;
-    if (species.has_axis())
-      species.k = species.mass * (species.length * species.length) / (2 * sizes.inertia.mean);
-    else
-      species.q = q_of(species.mass, species.diameter, sizes.inertia.mean);
+    species.set_inertia(sizes.inertia.mean);
     species.given_inertia.reset();
     species.sizes = sizes;
     return species;

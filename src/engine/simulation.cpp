@@ -293,7 +293,8 @@ namespace {
 class SceneWithState {
  public:
   SceneWithState(const Scene& scene, const State& state) : scene_(scene), state_(state) {
-    if (lacks_numbers(scene, state)) {
+    adopt_spheres(scene_, state);
+    if (lacks_numbers(scene_, state)) {
       completed_ = state;
       completed_->own_bodies = all_numbers_of(scene, state);
     }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "needlework/composition.h"
@@ -97,14 +98,14 @@ Bodies read_bodies(const Source& source) {
   bodies.diameter = read_numbers(source, "diameter");
   bodies.mass = read_numbers(source, "mass");
   bodies.k = read_numbers(source, "k");
-  const std::vector<double> inertia = read_numbers(source, "inertia");
-  for (std::size_t n = 0; n < inertia.size(); ++n) {
-    const auto number = [n](const std::vector<double>& of) { return n < of.size() ? of[n] : 0; };
-    const double mass = number(bodies.mass), diameter = number(bodies.diameter);
-    const bool is_sphere = number(bodies.length) == 0 && diameter > 0;
-    bodies.q.push_back(
-        is_sphere && std::isfinite(mass) ? 4 * inertia[n] / (mass * (diameter * diameter)) : 0);
-  }
+  // An import that has assumed another number has the moment of inertia by it.
+  const auto is_assumed_here = [&](const char* name) {
+    const std::string path = std::string("/parameters/") + name;
+    return has_dataset(source, path) && is_assumed(source, path);
+  };
+  if (std::ranges::none_of(std::array{"length", "mass", "k"}, is_assumed_here))
+    bodies.inertia = read_numbers(source, "inertia");
+  if (bodies.inertia.size() != bodies.length.size()) bodies.inertia.clear();
   if (!has_dataset(source, "/parameters/mass") && !has_own_bodies(source))
     bodies.mass = masses_by_species(source);
   // There is a species of which the file has no particle.
@@ -155,16 +156,10 @@ void enlarge(State& state, double scale) {
       rows.push_back(of_species[std::min(species, of_species.size() - 1)]);
     }
   };
-  std::vector<double> inertias;
-  for (std::size_t n = 0; n < std::min({bodies.length.size(), bodies.mass.size(), bodies.k.size()});
-       ++n) {
-    const double length = bodies.length[n];
-    inertias.push_back(length > 0 ? bodies.mass[n] * (length * length) / (2 * bodies.k[n]) : 0);
-  }
   fill(own.length, bodies.length);
   fill(own.diameter, bodies.diameter);
   fill(own.mass, bodies.mass);
-  fill(own.inertia, inertias);
+  fill(own.inertia, bodies.inertia);
   for (std::vector<double>* sizes : {&bodies.length, &bodies.diameter, &own.length, &own.diameter})
     for (double& size : *sizes) size *= scale;
   for (double& k : bodies.k) k *= scale * scale;

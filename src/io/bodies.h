@@ -8,7 +8,8 @@
 
 namespace needlework::io {
 
-/// The bodies of a file, as /parameters describes them: length, mass, k, diameter, of each species
+/// The bodies of a file, as /parameters describes them: length, mass, k, diameter, inertia, of each
+/// species
 /// in a mixture, and then the names, species. Where that has no mass, it is that of the particles.
 /// What has the attribute `assumed` is left out: the file that
 /// it was imported from does not say it. Throws InputError, "PATH: /DATASET...: expected ...", for

@@ -210,7 +210,7 @@ void make_species(hid_t parameters, const Composition& composition, const std::s
     write_each("diameter", &Species::diameter);
     std::vector<double> inertias;
     for (const Species& each : composition.species())
-      inertias.push_back(each.fixed && each.turns() ? each.mass_or_infinity() : each.inertia());
+      inertias.push_back(each.inertia_or_infinity());
     hdf5::write_array<double>(parameters, "inertia", {size}, inertias, place);
   }
   const auto write_pairs = [&](const char* name, double Restitution::*member) {

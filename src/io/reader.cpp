@@ -22,8 +22,8 @@
 namespace needlework {
 
 static void transfer(Archive& archive, Bodies& bodies) {
-  auto& [names, length, diameter, mass, k, q] = bodies;
-  archive(names, length, diameter, mass, k, q);
+  auto& [names, length, diameter, mass, k, q, inertia] = bodies;
+  archive(names, length, diameter, mass, k, q, inertia);
 }
 
 static void transfer(Archive& archive, OwnBodies& bodies) {

@@ -27,9 +27,10 @@ using OptionalNumber = std::optional<double>;
 using Images = std::optional<py::array_t<std::int32_t, py::array::c_style>>;
 using Ids = std::optional<py::array_t<std::uint32_t, py::array::c_style>>;
 using SpeciesIndices = std::optional<py::array_t<std::uint8_t, py::array::c_style>>;
-/// Names, length, diameter, mass and k of each species, empty where they are not known.
+/// Names, length, diameter, mass, k and inertia of each species, empty where they are not known.
 using Numbers = std::vector<double>;
-using BodyColumns = std::tuple<std::vector<std::string>, Numbers, Numbers, Numbers, Numbers>;
+using BodyColumns =
+    std::tuple<std::vector<std::string>, Numbers, Numbers, Numbers, Numbers, Numbers>;
 using OwnColumns = std::array<std::optional<Column>, 4>;
 using Arrays =
     std::tuple<Rows, Rows, Rows, Rows, Images, Ids, SpeciesIndices, BodyColumns, OwnColumns, bool,
@@ -46,8 +47,8 @@ State state_of(const Arrays& arrays) {
   if (const SpeciesIndices& species = std::get<6>(arrays)) {
     state.species.assign(species->data(), species->data() + species->size());
   }
-  auto& [names, length, diameter, mass, k, q] = state.bodies;
-  std::tie(names, length, diameter, mass, k) = std::get<7>(arrays);  // q is that of the scene
+  auto& [names, length, diameter, mass, k, q, inertia] = state.bodies;  // no q: inertia says it
+  std::tie(names, length, diameter, mass, k, inertia) = std::get<7>(arrays);
   OwnBodies& own = state.own_bodies;
   std::vector<double>* const columns[] = {&own.length, &own.diameter, &own.mass, &own.inertia};
   for (std::size_t n = 0; n < std::size(columns); ++n) {

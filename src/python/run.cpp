@@ -410,6 +410,7 @@ py::dict columns_of(const Bodies& bodies) {
   out["diameter"] = bodies.diameter;
   out["mass"] = bodies.mass;
   out["k"] = bodies.k;
+  out["inertia"] = bodies.inertia;
   return out;
 }
 

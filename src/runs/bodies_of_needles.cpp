@@ -13,11 +13,10 @@ OwnBodies bodies_of_needles(const Simulation& simulation) {
   const std::vector<std::uint8_t> species = simulation.species();
   for (std::size_t i = 0; i < simulation.needles(); ++i) {
     const Species& body = composition[species.empty() ? 0 : species[i]];
-    const double mass = body.mass_or_infinity();
     out.length.push_back(body.length);
     out.diameter.push_back(body.diameter);
-    out.mass.push_back(mass);
-    out.inertia.push_back(body.fixed && body.turns() ? mass : body.inertia());
+    out.mass.push_back(body.mass_or_infinity());
+    out.inertia.push_back(body.inertia_or_infinity());
   }
   return out;
 }

@@ -6,7 +6,7 @@
 namespace needlework::runs {
 
 /// The numbers of each needle, in order of id, whether those of a species differ or not. Masses of
-/// fixed needles, and their moments of inertia if they are no spheres, are infinite.
+/// fixed needles, and their moments of inertia unless they are smooth spheres, are infinite.
 OwnBodies bodies_of_needles(const Simulation& simulation);
 
 }  // namespace needlework::runs

@@ -61,16 +61,33 @@ void require_agreement(const Scene& scene, const char* key, std::size_t n, doubl
          fmt::to_string(expected));
 }
 
+double k_with(double inertia, const Species& body) {
+  return body.mass * (body.length * body.length) / (2 * inertia);
+}
+
+// What a state says of the k of a body whose other dimensions are known.
+std::optional<double> known_k(const Scene& scene, const Species& body, std::size_t n,
+                              const Bodies& bodies) {
+  const double inertia = n < bodies.inertia.size() ? bodies.inertia[n] : 0;
+  const bool is_inertia_known = inertia > 0 && std::isfinite(inertia);
+  if (bodies.k.empty())
+    return is_inertia_known ? std::optional(k_with(inertia, body)) : std::nullopt;
+  const double k = bodies.k[n];
+  if (is_inertia_known && !agrees(k_with(inertia, body), k)) {
+    throw InputError(fmt::format("{}: inertia = {} of its bodies: expected {}, as with their k",
+                                 source_of_state(scene), inertia, k_with(k, body)));
+  }
+  return k;
+}
+
 // k of a body whose other dimensions are known.
 double k_of(const Scene& scene, const Species& body, std::size_t n, const Bodies& bodies) {
-  const double by_inertia =
-      body.given_inertia ? body.mass * (body.length * body.length) / (2 * *body.given_inertia) : 0;
+  const double by_inertia = body.given_inertia ? k_with(*body.given_inertia, body) : 0;
   const bool is_k_said = is_said(scene, "k", n, body.k == Species{}.k);
-  if (!bodies.k.empty()) {
-    const double k = bodies.k[n];
+  if (const auto known = known_k(scene, body, n, bodies)) {
+    const double k = *known;
     if (body.given_inertia && !agrees(by_inertia, k)) {
-      require_agreement(scene, "inertia", n, *body.given_inertia,
-                        body.mass * (body.length * body.length) / (2 * k));
+      require_agreement(scene, "inertia", n, *body.given_inertia, k_with(k, body));
     } else if (is_k_said && !body.given_inertia) {
       require_agreement(scene, "k", n, body.k, k);
     }
@@ -80,13 +97,18 @@ double k_of(const Scene& scene, const Species& body, std::size_t n, const Bodies
   return is_k_said || body.diameter == 0 ? body.k : homogeneous_k(body.length, body.diameter);
 }
 
-// Of a rough sphere. What the scene says, or leaves to the default, has all digits.
-void adopt_inertia_of_sphere(const Scene& scene, Species& body, std::size_t n, double q) {
-  const double expected = inertia_of(q, body.mass, body.diameter);
+// Of a rough sphere. What the scene says, or leaves to the default, has all digits. Fixed ones have
+// an infinite one, and that of the scene moves nothing.
+void adopt_inertia_of_sphere(const Scene& scene, Species& body, std::size_t n,
+                             const Bodies& bodies) {
+  const double expected = n < bodies.inertia.size() ? bodies.inertia[n]
+                          : n < bodies.q.size() ? inertia_of(bodies.q[n], body.mass, body.diameter)
+                                                : 0;
+  if (!(expected > 0) || std::isinf(expected)) return;
   if (body.given_inertia)
     return require_agreement(scene, "inertia", n, *body.given_inertia, expected);
   const Species made = scene.composition()[n < scene.species.size() ? n : 0];
-  if (made.q > 0 && agrees(made.q, q)) return;
+  if (made.q > 0 && agrees(made.q, q_of(body.mass, body.diameter, expected))) return;
   body.given_inertia = expected;
 }
 
@@ -119,8 +141,8 @@ Species completed(const Scene& scene, Species body, std::size_t n, const Bodies&
   if (body.has_axis()) {
     body.k = k_of(scene, body, n, bodies);
     body.given_inertia.reset();
-  } else if (n < bodies.q.size() && bodies.q[n] > 0) {
-    adopt_inertia_of_sphere(scene, body, n, bodies.q[n]);
+  } else {
+    adopt_inertia_of_sphere(scene, body, n, bodies);
   }
   return body;
 }
@@ -146,7 +168,9 @@ void require_one_number_a_species(const Scene& scene, const Bodies& bodies) {
                                    {"length", bodies.length.size()},
                                    {"diameter", bodies.diameter.size()},
                                    {"mass", bodies.mass.size()},
-                                   {"k", bodies.k.size()}}) {
+                                   {"k", bodies.k.size()},
+                                   {"q", bodies.q.size()},
+                                   {"inertia", bodies.inertia.size()}}) {
     if (size == 0 || size == bodies.species()) continue;
     throw InputError(
         fmt::format("{}: {} of its bodies: {} of them: expected {}, one for each species",
@@ -260,7 +284,7 @@ static void drop_equal_rows(State& state) {
   };
   const OwnBodies& own = state.own_bodies;
   if (are_equal(own.length, bodies.length) && are_equal(own.diameter, bodies.diameter) &&
-      are_equal(own.mass, bodies.mass))
+      are_equal(own.mass, bodies.mass) && are_equal(own.inertia, bodies.inertia))
     state.own_bodies = {};
 }
 
@@ -290,6 +314,7 @@ void adopt_state(Scene& scene, State& state) {
   adopt_bodies(scene, state.bodies);
   require_rules(scene, Aspect::species | Aspect::bodies | Aspect::pairs | Aspect::effects);
   adopt_count_and_box(scene, state);
+  adopt_spheres(scene, state);
   if (lacks_numbers(scene, state)) state.own_bodies = all_numbers_of(scene, state);
   add_inertia_of_spheres(scene, state);
   adopt_own_bodies(scene, state);
@@ -307,7 +332,7 @@ Bodies bodies_of(const Composition& composition, double scale) {
           .push_back(value == &Species::mass ? each.mass_or_infinity() : each.*value * scale);
     }
     bodies.k.push_back(each.k * (scale * scale));
-    bodies.q.push_back(each.q / (scale * scale));
+    bodies.inertia.push_back(each.inertia_or_infinity());
   }
   return bodies;
 }
@@ -327,7 +352,7 @@ std::string warning_of_unknown_bodies(const Scene& scene, const Bodies& bodies) 
     }
     const bool is_k_said = is_said(scene, "k", n, body.k == Species{}.k) ||
                            is_said(scene, "inertia", n, true) || !body.has_axis();
-    add_if(bodies.k.empty() && !is_k_said, "k");
+    add_if(bodies.k.empty() && bodies.inertia.empty() && !is_k_said, "k");
   }
   if (unknown.empty()) return "";
   return fmt::format(

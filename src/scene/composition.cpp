@@ -48,10 +48,8 @@ Composition Scene::composition() const {
     first += each.count;
     if (each.fixed) each.t_tr = 0;
     if (!each.turns() || each.fixed) each.t_rot = 0;
-    if (each.given_inertia && each.has_axis())
-      each.k = each.mass * (each.length * each.length) / (2 * *each.given_inertia);
-    if (each.given_inertia && is_rough_sphere)
-      each.q = q_of(each.mass, each.diameter, *each.given_inertia);
+    if (each.given_inertia && (each.has_axis() || is_rough_sphere))
+      each.set_inertia(*each.given_inertia);
     out.set_species(n, each);
   }
   return out;

@@ -363,10 +363,7 @@ Species completed(const Species& species, std::uint64_t seed, std::uint64_t firs
     out.length = body.length;
     out.diameter = body.diameter;
     out.mass = body.mass;
-    if (out.has_axis())
-      out.k = body.mass * (body.length * body.length) / (2 * body.inertia);
-    else
-      out.q = q_of(body.mass, body.diameter, body.inertia);
+    out.set_inertia(body.inertia);
     out.given_inertia.reset();
     return out;
   }
@@ -433,6 +430,22 @@ OwnBodies columns_of(const std::vector<BodyNumbers>& bodies) {
     out.inertia.push_back(body.inertia);
   }
   return out;
+}
+
+void adopt_spheres(Scene& scene, const State& state) {
+  const std::vector<double>& length = state.own_bodies.length;
+  if (length.size() != state.size() || std::ranges::count(length, 0) == 0) return;
+  const Composition composition = scene.composition();
+  const std::vector<SpeciesIndex> species = species_of_rows(composition, state);
+  if (species.size() != state.size() && composition.size() > 1) return;  // refused elsewhere
+  std::vector<bool> are_spheres(composition.size());
+  for (std::size_t row = 0; row < length.size(); ++row) {
+    const std::size_t its = composition.size() > 1 ? species[row] : 0;
+    if (its < are_spheres.size() && length[row] == 0) are_spheres[its] = true;
+  }
+  if (scene.species.empty()) scene.species = composition.species();
+  for (std::size_t n = 0; n < are_spheres.size(); ++n)
+    if (are_spheres[n]) scene.species[n].length = 0;
 }
 
 void add_inertia_of_spheres(const Scene& scene, State& state) {

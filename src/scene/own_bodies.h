@@ -111,6 +111,9 @@ std::vector<BodyNumbers> drawn_bodies(const Scene& scene);
 /// The same as columns of a state.
 OwnBodies columns_of(const std::vector<BodyNumbers>& bodies);
 
+/// Makes species of a scene spheres whose bodies in a state are, so that what follows knows which
+/// are rough.
+void adopt_spheres(Scene& scene, const State& state);
 /// Gives rough spheres of a state a moment of inertia that were smooth in it. To be called before
 /// adopt_own_bodies().
 void add_inertia_of_spheres(const Scene& scene, State& state);

@@ -104,7 +104,7 @@ std::optional<std::string> bytes_in(const Json& request, const char* field) {
 std::optional<Bodies> bodies_in(const Json& request, const char* field) {
   const Json* value = find(request, field);
   if (!value) return std::nullopt;
-  constexpr const char* expected = "an object of lists: name, length, diameter, mass, k";
+  constexpr const char* expected = "an object of lists: name, length, diameter, mass, k, inertia";
   if (!value->is_object()) throw wrong(field, *value, expected);
   Bodies bodies;
   for (const auto& [key, list] : value->items()) {
@@ -112,9 +112,10 @@ std::optional<Bodies> bodies_in(const Json& request, const char* field) {
                                    : key == "diameter" ? &bodies.diameter
                                    : key == "mass"     ? &bodies.mass
                                    : key == "k"        ? &bodies.k
+                                   : key == "inertia"  ? &bodies.inertia
                                                        : nullptr;
     const bool are_names = key == "name";  // clang 14 captures no structured bindings
-    const bool may_be_infinite = numbers == &bodies.mass;
+    const bool may_be_infinite = numbers == &bodies.mass || numbers == &bodies.inertia;
     const auto is_good = [&](const Json& each) {
       if (!numbers) return are_names && each.is_string();
       return each.is_number() || (may_be_infinite && each.is_null());

@@ -62,8 +62,11 @@ Json json_of(const Bodies& bodies) {
   if (!bodies.names.empty()) out["name"] = bodies.names;
   out["length"] = bodies.length;
   out["diameter"] = bodies.diameter;
-  out["mass"] = Json::array();
-  for (const double mass : bodies.mass) out["mass"].push_back(number(mass));  // null: fixed
+  for (const auto& [name, column] :
+       {std::pair("mass", &bodies.mass), {"inertia", &bodies.inertia}}) {
+    out[name] = Json::array();
+    for (const double each : *column) out[name].push_back(number(each));  // null: fixed
+  }
   out["k"] = bodies.k;
   return out;
 }

@@ -94,6 +94,28 @@ TEST(CBodies, MayBeGivenInPart) {
   needlework_destroy(made);
 }
 
+// The scene names no spheres; those that are given are, and their masses are its.
+TEST(CBodies, RoughSpheresHaveTheMomentsOfInertiaGiven) {
+  const CSimulation gas(
+      "needles.box = 6\ncollisions.beta = 0.5\n"
+      "species = [ { name = \"s\", count = 20, length = 0, diameter = 0.8 } ]\n");
+  ASSERT_NE(gas, nullptr) << gas.error.message;
+  const Arrays arrays(gas);
+  const std::vector<double> lengths(20, 0), diameters(20, 0.8), inertias(20, 0.05);
+  const needlework_initial initial = arrays.initial(6);
+  const needlework_bodies given{lengths.data(), diameters.data(), nullptr, inertias.data()};
+  needlework_error error{};
+  needlework_simulation* made = needlework_create_with_bodies("collisions.beta = 0.5\n", &initial,
+                                                              nullptr, nullptr, &given, 0, &error);
+  ASSERT_NE(made, nullptr) << error.message;
+  EXPECT_EQ(Bodies(made).inertia, inertias);
+  needlework_totals totals{};
+  EXPECT_EQ(needlework_get_totals(made, &totals), NEEDLEWORK_OK);
+  // By default spheres are homogeneous.
+  EXPECT_DOUBLE_EQ(totals.t_rot, gas.totals().t_rot * 0.05 / (0.1 * (0.8 * 0.8)));
+  needlework_destroy(made);
+}
+
 TEST(CBodies, ThatNoGasHasAreRefusedWithTheirNeedle) {
   const CSimulation gas(drawn);
   const Arrays arrays(gas);

@@ -381,6 +381,22 @@ TEST(Serve, HandsBodiesOverWithAState) {
   EXPECT_EQ(second[3]["code"], 2) << second[3];
 }
 
+TEST(Serve, GoesOnFromAStateOfRoughSpheres) {
+  const std::string rough = "needles.box = 9\ncollisions.beta = 0.5\n";
+  const std::string species =
+      "species = [ { name = \"s\", count = 20, length = 0, diameter = 0.8, inertia = 0.05 } ]\n";
+  auto first = answers_to({{{"do", "create"}, {"scene", rough + species}},
+                           {{"do", "totals"}, {"simulation", 1}},
+                           {{"do", "state"}, {"simulation", 1}}});
+  EXPECT_NEAR(first[2]["bodies"]["inertia"][0].get<double>(), 0.05, 1e-16);
+  Json again = first[2];
+  for (const char* field : {"ok", "time", "needles"}) again.erase(field);
+  again["do"] = "create";
+  again["scene"] = rough;
+  auto second = answers_to({again, {{"do", "totals"}, {"simulation", 1}}});
+  EXPECT_NEAR(second[1]["t_rot"].get<double>() / first[1]["t_rot"].get<double>(), 1, 1e-14);
+}
+
 TEST(Serve, SendsTheArraysOfAStateThatAreChosen) {
   auto answers =
       answers_to({create(),
