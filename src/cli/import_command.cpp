@@ -137,6 +137,9 @@ std::string species_text(const Composition& composition, const io::Configuration
       // A state of unknown length says no diameter either.
       const bool is_said = each.diameter > 0 || !is_length_known;
       if (is_said) text += fmt::format("diameter = {}\n", each.diameter);
+      const double inertia = io::number_of(read.material.inertia, n, 0);
+      if (!each.fixed && !each.has_axis() && inertia > 0)
+        text += fmt::format("inertia = {}\n", inertia);
     }
     if (each.fixed) text += "fixed = true\n";
     if (each.fixed && composition.has_width())

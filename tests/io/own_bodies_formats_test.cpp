@@ -75,6 +75,31 @@ TEST_F(OwnBodiesFormats, AreReadBackBitForBit) {
   }
 }
 
+// They turn about any axis.
+TEST_F(OwnBodiesFormats, RoughSpheresKeepMomentsOfInertiaAndSpins) {
+  Material its = two_species;
+  its.length = {0, 0};
+  its.diameter = {0.8, 1.1};
+  its.inertia = {0.05, 0.3};
+  its.beta = {0.5, 0.5, 0.5, 0.5};
+  State alike = make_state(20, 3);
+  for (std::size_t i = 0; i < 20; ++i) {
+    alike.species.push_back(static_cast<SpeciesIndex>(i % 2));
+    alike.angular_velocity[i] = {0.5, -1.0 / static_cast<double>(3 + i), 2};
+  }
+  State differing = alike;
+  differing.own_bodies = numbers_for(alike);
+  differing.own_bodies.length.assign(20, 0);
+  for (const char* name : {"a.xyz", "a.dump"}) {
+    for (const State& state : {alike, differing}) {
+      const Configuration read = read_configuration(put(name, {state}, its));
+      expect_same_bodies(read.state.own_bodies, state.own_bodies, name);
+      EXPECT_EQ(read.state.angular_velocity, state.angular_velocity) << name;
+      if (state.own_bodies.empty()) EXPECT_EQ(read.material.inertia, its.inertia) << name;
+    }
+  }
+}
+
 // LAMMPS has densities, from which masses follow, and one k for all.
 TEST_F(OwnBodiesFormats, AreReadBackFromDataFilesButForARounding) {
   State state = differing(20, true, 3.3);

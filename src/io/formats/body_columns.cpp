@@ -88,6 +88,7 @@ std::vector<double>& BodyColumns::sized(std::vector<double>& numbers,
                            : &numbers == &material.length   ? usual.length
                            : &numbers == &material.mass     ? usual.mass
                            : &numbers == &material.diameter ? usual.diameter
+                           : &numbers == &material.inertia  ? 0
                                                             : usual.k;
   numbers.resize(std::max({numbers.size(), first_.size(), material.names.size()}), otherwise);
   return numbers;
@@ -109,13 +110,13 @@ void BodyColumns::adopt(const Column& column, Material& material) const {
   }
 }
 
-// As k, where there is none.
-void BodyColumns::adopt_inertia(Material& material) const {
+// Where there is none, by the moments of inertia.
+void BodyColumns::find_k(Material& material) const {
   if (inertia_.rows.empty() || !material.k.empty()) return;
   sized(material.k, material);
   for (std::size_t n = 0; n < first_.size(); ++n) {
     if (!first_[n]) continue;
-    const double inertia = inertia_.rows[first_[n]->needle];
+    const double inertia = material.inertia[n];
     const double length = number_of(material.length, n, Species{}.length);
     const double mass = number_of(material.mass, n, Species{}.mass);
     const bool turns = inertia > 0 && std::isfinite(inertia) && std::isfinite(mass);
@@ -169,6 +170,7 @@ void BodyColumns::adopt_means(const OwnBodies& own, Material& material) const {
   set(material.diameter, !diameter_.rows.empty(),
       [](const Sums& s) { return s.diameter / s.count; });
   set(material.mass, !mass_.rows.empty(), [](const Sums& s) { return s.mass / s.count; });
+  set(material.inertia, !inertia_.rows.empty(), [](const Sums& s) { return s.inertia / s.count; });
   set(material.k, !k_.rows.empty() || !inertia_.rows.empty(), [](const Sums& s) {
     const bool turns = s.inertia > 0 && std::isfinite(s.inertia);
     return turns ? s.mass * (s.length * s.length) / (2 * s.inertia * (s.count * s.count))
@@ -183,8 +185,9 @@ void BodyColumns::settle(Configuration& configuration) const {
     adopt_means(configuration.state.own_bodies, material);
     return;
   }
-  for (const Column* column : {&length_, &diameter_, &mass_, &k_}) adopt(*column, material);
-  adopt_inertia(material);
+  for (const Column* column : {&length_, &diameter_, &mass_, &k_, &inertia_})
+    adopt(*column, material);
+  find_k(material);
 }
 
 }  // namespace needlework::io

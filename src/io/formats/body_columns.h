@@ -28,6 +28,12 @@ class BodyColumns {
   /// that makes it another kind of body than the first of its species: a sphere, or fixed.
   void read(const Row& row, std::size_t species);
 
+  /// That of the needle which was taken last.
+  double length_of(std::size_t species, const Material& material) const {
+    return length_.rows.empty() ? number_of(material.length, species, Species{}.length)
+                                : length_.rows.back();
+  }
+
   /// Once all needles are read: makes these numbers those of the species, if bodies of a species
   /// are alike, and otherwise those of State::own_bodies, all of them, with means for the species.
   /// Throws InputError where bodies are alike, and not as the material says.
@@ -48,7 +54,7 @@ class BodyColumns {
   void add(Column& column, const Row& row, double value);
   bool vary(const Column& column) const;
   void adopt(const Column& column, Material& material) const;
-  void adopt_inertia(Material& material) const;
+  void find_k(Material& material) const;
   OwnBodies all_of(const Material& material) const;
   void adopt_means(const OwnBodies& own, Material& material) const;
   std::vector<double>& sized(std::vector<double>& numbers, const Material& material) const;
@@ -57,7 +63,8 @@ class BodyColumns {
   std::vector<std::size_t> species_;         ///< of each needle
   std::vector<std::optional<First>> first_;  ///< by species
   Column length_{"length", &Material::length}, diameter_{"diameter", &Material::diameter},
-      mass_{"mass", &Material::mass}, k_{"k", &Material::k}, inertia_{"inertia", nullptr};
+      mass_{"mass", &Material::mass}, k_{"k", &Material::k},
+      inertia_{"inertia", &Material::inertia};
 };
 
 }  // namespace needlework::io

@@ -54,9 +54,9 @@ double rounding_along(const Row& row, const VectorColumns& columns, const Vector
 }
 
 std::pair<const char*, std::vector<double> Material::*> const materials[] = {
-    {"length", &Material::length},    {"mass", &Material::mass}, {"k", &Material::k},
-    {"epsilon", &Material::epsilon},  {"beta", &Material::beta}, {"meet", &Material::meet},
-    {"diameter", &Material::diameter}};
+    {"length", &Material::length},     {"mass", &Material::mass},      {"k", &Material::k},
+    {"epsilon", &Material::epsilon},   {"beta", &Material::beta},      {"meet", &Material::meet},
+    {"diameter", &Material::diameter}, {"inertia", &Material::inertia}};
 
 }  // namespace
 
@@ -99,7 +99,6 @@ void NeedleReader::read(const Row& row) {
   }
   State& state = configuration_.state;
   if (columns_.edges) take_edges(row);
-  read_rotation(row);
   read_position(row);
   state.velocity.push_back(columns_.velocity ? read_vector(row, *columns_.velocity, "velocity")
                                              : read_vector(row, *columns_.momentum, "momentum"));
@@ -118,6 +117,7 @@ void NeedleReader::read(const Row& row) {
     state.species.push_back(static_cast<SpeciesIndex>(species));
   }
   bodies_.read(row, species);
+  read_rotation(row, species);
 }
 
 // Positions then count from the walls.
@@ -216,16 +216,14 @@ Vector NeedleReader::read_director(const Row& row, double& deviation) {
   return normalised({2 * (x * z + w * y), 2 * (y * z - w * x), w * w - x * x - y * y + z * z});
 }
 
-void NeedleReader::read_rotation(const Row& row) {
+void NeedleReader::read_rotation(const Row& row, std::size_t species) {
   double deviation = 0;
   const Vector u = read_director(row, deviation);
   const VectorColumns& columns =
       columns_.angular_velocity ? *columns_.angular_velocity : *columns_.angular_momentum;
   Vector w = read_vector(row, columns, "angular velocity");
-  const std::vector<double>& lengths = configuration_.material.length;
-  const bool are_spheres =
-      !lengths.empty() && std::ranges::all_of(lengths, [](double length) { return length == 0; });
-  const double part = are_spheres ? 0 : std::abs(part_along(w, u));
+  const double length = bodies_.length_of(species, configuration_.material);
+  const double part = length == 0 ? 0 : std::abs(part_along(w, u));
   if (!(part <= director_tolerance)) {
     const double along = part * length_of(w);
     if (part <= largest_rounding) {
@@ -321,7 +319,7 @@ void NeedleReader::leave_out_unknown_species() {
     if (present[i]) ++count;
   }
   for (std::vector<double>* list :
-       {&material.length, &material.mass, &material.k, &material.diameter}) {
+       {&material.length, &material.mass, &material.k, &material.diameter, &material.inertia}) {
     if (list->size() <= 1 && !(list->size() == 1 && std::isnan(list->at(0)))) continue;  // of all
     std::vector<double> kept;
     for (std::size_t i = 0; i < list->size() && i < most_species; ++i) {
@@ -434,7 +432,8 @@ void set_material(Material& material, std::string_view name, std::string_view va
     require_first(numbers.empty());
     for (const std::string_view item : items_of(value)) {
       double& number = numbers.emplace_back();
-      const bool is_fixed = member == &Material::mass && is_infinite(item);
+      const bool is_fixed =
+          (member == &Material::mass || member == &Material::inertia) && is_infinite(item);
       if (is_fixed) number = std::numeric_limits<double>::infinity();
       if (is_fixed || read_decimal(item, number) == std::errc()) continue;
       row.reject(fmt::format("{} = {}: expected a finite number", name, quotation(value)));

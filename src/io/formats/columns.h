@@ -85,7 +85,7 @@ class NeedleReader {
   Vector read_director(const Row& row, double& deviation);
   void divide_momenta(const std::string& path);
   void read_position(const Row& row);
-  void read_rotation(const Row& row);
+  void read_rotation(const Row& row, std::size_t species);
   void require_distinct_ids(const std::string& path) const;
   void leave_out_unknown_species();
 

@@ -247,9 +247,11 @@ class DumpWriter : public FrameWriter {
  public:
   DumpWriter(const std::string& path, bool force, const Material& material)
       : material_(material), all_(species_of(material)), file_(path, force) {
-    for (const Species& each : all_) {
-      const BodyOfRow body{each.length, each.diameter, each.mass_or_infinity(), each.k, 0};
-      endings_.push_back(ending_of(body, false));
+    for (std::size_t n = 0; n < all_.size(); ++n) {
+      const Species& each = all_[n];
+      endings_.push_back(ending_of({each.length, each.diameter, each.mass_or_infinity(), each.k,
+                                    number_of(material_.inertia, n, each.inertia())},
+                                   false));
     }
   }
 
@@ -295,6 +297,7 @@ class DumpWriter : public FrameWriter {
   bool has_lengths(bool are_own) const { return is_wide() || !material_.length.empty() || are_own; }
   bool has_masses(bool are_own) const { return !material_.mass.empty() || are_own; }
   bool has_k(bool are_own) const { return !are_own && (is_wide() || all_.size() > 1); }
+  bool has_inertia(bool are_own) const { return are_own || !material_.inertia.empty(); }
   bool has_forces() const { return material_.gravity != std::array<double, 3>{}; }
 
   // Of the columns of ending_of(), after the shape. Moments of inertia say more digits than k.
@@ -304,7 +307,7 @@ class DumpWriter : public FrameWriter {
     if (has_lengths(are_own)) out += " diameter";
     if (has_masses(are_own)) out += " mass";
     if (has_k(are_own)) out += " k";
-    if (are_own) out += " inertia";
+    if (has_inertia(are_own)) out += " inertia";
     if (has_forces()) out += " fx fy fz";
     return out;
   }
@@ -320,7 +323,7 @@ class DumpWriter : public FrameWriter {
     if (is_wide()) add(body.diameter);
     if (has_masses(are_own)) add(body.mass);
     if (has_k(are_own)) add(body.k);
-    if (are_own) add(body.inertia);
+    if (has_inertia(are_own)) add(body.inertia);
     for (const double g : material_.gravity) {
       if (has_forces()) add(body.mass * g);
     }

@@ -77,8 +77,8 @@ bool fits(const std::vector<double>& values, std::size_t count) {
 }  // namespace
 
 static void transfer(Archive& archive, Material& material) {
-  auto& [names, length, mass, k, diameter, epsilon, beta, meet, walls, gravity] = material;
-  archive(names, length, mass, k, diameter, epsilon, beta, meet, walls, gravity);
+  auto& [names, length, mass, k, diameter, inertia, epsilon, beta, meet, walls, gravity] = material;
+  archive(names, length, mass, k, diameter, inertia, epsilon, beta, meet, walls, gravity);
 }
 
 static Material read_material_here(const std::string& path) {
@@ -98,13 +98,17 @@ static Material read_material_here(const std::string& path) {
   material.meet = read_numbers(source, "/parameters/meet");
   material.names = read_texts(source, "/parameters/species");
   read_surroundings(source, material);
+  material.inertia = read_positive(source, "/parameters/inertia", may_be_infinite, true);
+  const std::vector<Species> all = species_of(material);
+  if (std::ranges::none_of(all, [](const Species& each) { return each.q > 0; }))
+    material.inertia.clear();
   composition_of(material, path);
   return material;
 }
 
 std::size_t Material::species() const {
-  return std::max(
-      {std::size_t{1}, names.size(), length.size(), mass.size(), k.size(), diameter.size()});
+  return std::max({std::size_t{1}, names.size(), length.size(), mass.size(), k.size(),
+                   diameter.size(), inertia.size()});
 }
 
 std::vector<Species> species_of(const Material& material) {
@@ -123,6 +127,8 @@ std::vector<Species> species_of(const Material& material) {
     each.k = number_of(
         material.k, i,
         each.diameter > 0 && each.has_axis() ? homogeneous_k(each.length, each.diameter) : each.k);
+    const double inertia = number_of(material.inertia, i, 0);
+    if (!each.has_axis() && std::isfinite(inertia)) each.set_inertia(inertia);
   }
   return all;
 }
@@ -169,10 +175,14 @@ BodyOfRow body_at(const std::vector<Species>& all, const State& state, std::size
                 .mass = number(own.mass, species.mass_or_infinity()),
                 .k = species.k,
                 .inertia = 0};
-  const double shape = out.mass * (out.length * out.length) / 2;
-  out.inertia = number(own.inertia, out.length > 0 ? shape / species.k : 0);
-  if (!own.inertia.empty() && out.inertia > 0 && std::isfinite(out.inertia))
-    out.k = shape / out.inertia;
+  const Species as_it_is{.length = out.length,
+                         .mass = out.mass,
+                         .k = species.k,
+                         .diameter = out.diameter,
+                         .q = species.q};
+  out.inertia = number(own.inertia, as_it_is.turns() ? as_it_is.inertia() : 0);
+  if (!own.inertia.empty() && out.length > 0 && std::isfinite(out.inertia))
+    out.k = out.mass * (out.length * out.length) / 2 / out.inertia;
   return out;
 }
 
@@ -227,7 +237,8 @@ Composition composition_of(const Material& material, const std::string& path) {
   }
   for (const auto& [name, values] :
        {std::pair("length", &material.length), std::pair("mass", &material.mass),
-        std::pair("k", &material.k), std::pair("diameter", &material.diameter)}) {
+        std::pair("k", &material.k), std::pair("diameter", &material.diameter),
+        std::pair("inertia", &material.inertia)}) {
     if (fits(*values, count)) continue;
     throw InputError(fmt::format("{}: {} numbers of {}: expected {}, one for each species", path,
                                  values->size(), name, count));

@@ -20,6 +20,8 @@ struct Material {
   std::vector<double> mass = {};      ///< of each species, infinite of fixed ones [m]
   std::vector<double> k = {};         ///< m L^2 / (2 I) of each species [1]
   std::vector<double> diameter = {};  ///< of each species of rods; none for thin needles [L]
+  std::vector<double> inertia = {};   ///< of each species; none where k says it of all that turn
+                                      ///< [m L^2]
   /// Normal and tangential restitution: one for all, or one for each two species, in rows [1].
   std::vector<double> epsilon = {}, beta = {};
   /// 0 for each two species that pass through each other, in rows.
@@ -48,7 +50,7 @@ struct BodyOfRow {
   double length, diameter;  ///< [L]
   double mass;              ///< infinite of a fixed one [m]
   double k;                 ///< [1]
-  double inertia;           ///< 0 of spheres [m L^2]
+  double inertia;           ///< 0 of smooth spheres [m L^2]
 };
 /// The body of a needle, by its own numbers or those of its species.
 BodyOfRow body_at(const std::vector<Species>& all, const State& state, std::size_t i);
