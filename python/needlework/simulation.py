@@ -492,7 +492,7 @@ class Simulation(NotPickled):
         self._forget()
         self._run.set_velocities(rows_of_vectors("velocity", velocity, count),
                                  rows_of_vectors("angular_velocity", given, count))
-        if angular_velocity is None and np.any(self._facts.bodies["length"]):
+        if angular_velocity is None and self._facts.turn:
             warnings.warn(_core.no_rotation_given, SceneWarning, stacklevel=2)
         self._note_velocities_set()
 

@@ -212,7 +212,7 @@ int needlework_set_velocities(needlework_simulation* simulation,
     const auto w =
         c::rows_of(angular_velocity ? *angular_velocity : needlework_const_vectors{}, count);
     c::changing(self, [&] { self.run.set_velocities(v, w); });
-    if (!angular_velocity && !self.run.simulation().composition().are_spheres())
+    if (!angular_velocity && self.run.simulation().composition().turning_share() > 0)
       c::report_warning(runs::no_rotation_given, &self.last);
   });
 }

@@ -441,6 +441,7 @@ py::dict Run::facts() {
     if (!composition.all_meet()) out["meet"] = composition.meets(0, 0);
   }
   out["differ"] = composition.has_own_sizes();
+  out["turn"] = composition.turning_share() > 0;
   out["bodies"] = columns_of(bodies_of(composition));
   out["search"] = simulation.search();
   out["queue"] = simulation.queue();

@@ -472,7 +472,7 @@ Json Requests::velocities(const Json& request, const Connection&) {
   run.set_velocities(
       *velocity, angular_velocity.value_or(std::vector<std::array<double, 3>>(velocity->size())));
   Json answer = summary_of(run);
-  if (!angular_velocity && !run.simulation().composition().are_spheres())
+  if (!angular_velocity && run.simulation().composition().turning_share() > 0)
     answer["warning"] = runs::no_rotation_given;
   return answer;
 }

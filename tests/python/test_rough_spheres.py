@@ -1,10 +1,11 @@
 """Rough spheres keep their moments of inertia on every way from one simulation to the next."""
 
 import unittest
+import warnings
 
 import needlework
 import numpy as np
-from needlework import Simulation
+from needlework import SceneWarning, Simulation
 
 from support import InFolder
 
@@ -90,6 +91,14 @@ class RoughSpheres(InFolder):
         sim = Simulation({**SPHERES, "species": [*SPHERES["species"], fixed]})
         self.assertTrue(np.all(np.isinf(sim.inertia[-5:])))
         self.expect_same(Simulation(SILENT, **sim.state), sim)
+
+    def test_velocities_without_spins(self):
+        for beta, expected in (0.5, 1), (-1.0, 0):
+            sim = Simulation({**SPHERES, "collisions": {"beta": beta}})
+            with warnings.catch_warnings(record=True) as found:
+                warnings.simplefilter("always")
+                sim.set_velocities(sim.velocity)
+            self.assertEqual([each.category for each in found], [SceneWarning] * expected)
 
 
 if __name__ == "__main__":
