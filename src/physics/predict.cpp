@@ -106,7 +106,10 @@ kernels::Contact search(const Law& law, const typename Law::Pair& pair, double d
                         kernels::EvaluationCounters& counters) {
   const NearInterval near = near_interval(pair, distance);
   const double last = std::min(horizon, near.exit);
-  if (!scale.moves || std::isinf(near.enter)) return {};
+  if (std::isinf(near.enter)) return {};
+  if (!scale.moves) {  // so that they overlap now or never
+    return Law::never_overlap ? law.first_contact(pair, 0, 0, counters) : kernels::Contact{};
+  }
   for (double begin = near.enter; begin <= last;) {
     if (begin * scale.per_time > latest) {
       throw InputError(

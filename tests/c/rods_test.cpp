@@ -72,12 +72,13 @@ TEST(CRods, MeetWhenTheirAxesAreHalfTheSumOfTheirDiametersApart) {
 }
 
 TEST(CRods, SayWhichPairOverlaps) {
-  const FallingPairs falling(2);
+  FallingPairs falling(2);
   const needlework_pairs pairs = falling.pairs();
   double time[2];
   needlework_error error;
-  const auto message = [&](const double* diameter1, const double* diameter2) {
-    const needlework_pair_sizes sizes{nullptr, nullptr, diameter1, diameter2};
+  const auto message = [&](const double* diameter1, const double* diameter2,
+                           const double* length = nullptr) {
+    const needlework_pair_sizes sizes{length, length, diameter1, diameter2};
     EXPECT_EQ(needlework_predict_with_sizes(&pairs, &sizes, time, nullptr, nullptr, &error),
               NEEDLEWORK_INPUT);
     return std::string(error.message);
@@ -85,6 +86,12 @@ TEST(CRods, SayWhichPairOverlaps) {
   const double thin[] = {0.5, 0.5}, thick[] = {0.5, 4}, none[] = {0.5, 0};
   EXPECT_EQ(message(thin, thick),
             "pair 1: the rods overlap: their axes are 2 apart, less than 2.25");
+  const double of_spheres[] = {0, 0};
+  for (double& velocity : falling.v2) velocity = 0;
+  EXPECT_EQ(message(thin, thick),
+            "pair 1: the rods overlap: their axes are 2 apart, less than 2.25");
+  EXPECT_EQ(message(thin, thick, of_spheres),
+            "pair 1: the rods overlap: their axes are 2.019436803 apart, less than 2.25");
 }
 
 TEST(CRods, HaveShapesRoomAndPressure) {
