@@ -147,13 +147,24 @@ std::optional<SlidingContacts> sliding_contacts(const Run& run) {
                          .share = 2 * tally.time.value() / of_all};
 }
 
-std::optional<GrowthTotals> growth_totals(const Run& run, const Composition& at_start) {
+// The gas has them in the largest ones, of which the quotient is rounded: at the start this must
+// not show.
+double present_scale(const Run& run, const Scene& scene, const Composition& at_start) {
+  if (!run.gas.growth) return 1;
+  const double scale =
+      run.gas.scale_at(run.now) * (run.gas.composition.longest() / at_start.longest());
+  const double first = scene.driving.growth->from;
+  return scale <= first * (1 + 0x1p-50) ? first : scale;
+}
+
+std::optional<GrowthTotals> growth_totals(const Run& run, const Scene& scene,
+                                          const Composition& at_start) {
   if (!run.growing) return std::nullopt;
   const Vector edges = run.gas.edges_at(run.now);
   const double scale = run.gas.scale_at(run.now), pressure = run.growing->pressure();
   const double largest = run.gas.composition.longest() / at_start.longest();
   return GrowthTotals{
-      .scale = scale * largest,
+      .scale = present_scale(run, scene, at_start),
       .rate = run.gas.growth->rate() * largest,
       .packing_fraction = run.gas.composition.packing_fraction(edges[0] * edges[1] * edges[2]) *
                           (scale * scale * scale),

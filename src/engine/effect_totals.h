@@ -21,7 +21,10 @@ std::vector<std::vector<ObjectTotals>> objects_by_source(const Run& run);
 std::vector<WallTotals> wall_totals(const Run& run, const Scene& scene);
 /// None where needles do not slide.
 std::optional<SlidingContacts> sliding_contacts(const Run& run);
+/// Present sizes of bodies in those of the scene, which a restart has to all digits at its start.
+double present_scale(const Run& run, const Scene& scene, const Composition& at_start);
 /// None where bodies do not grow; `at_start` is what they were before.
-std::optional<GrowthTotals> growth_totals(const Run& run, const Composition& at_start);
+std::optional<GrowthTotals> growth_totals(const Run& run, const Scene& scene,
+                                          const Composition& at_start);
 
 }  // namespace needlework

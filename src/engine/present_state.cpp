@@ -9,20 +9,41 @@
 
 #include "kernels/free_flight.h"
 #include "needlework/error.h"
+#include "src/composition/sizes.h"
 #include "src/physics/director.h"
 #include "src/physics/vectors.h"
 
 namespace needlework {
 
-void copy_own_bodies(const Gas& gas, double scale, const std::vector<Needle>& order,
+// As whoever multiplies what a file says of the start by the scale has them, bit by bit.
+static BodyNumbers body_of(const Gas& gas, const PresentSizes& sizes, Needle i) {
+  const Body body = gas.body(i);
+  BodyNumbers out{body.length(), 2 * body.radius, body.mass, body.inertia};
+  if (!gas.growth) return out;
+  if (gas.has_own_bodies()) {
+    const double share = sizes.at_start.longest() / gas.composition.longest();
+    out.length *= share;
+    out.diameter *= share;
+  } else {
+    const Species& species = sizes.at_start[gas.records[i].species];
+    out.length = species.length;
+    out.diameter = species.diameter;
+    if (!species.fixed) out.inertia = species.inertia();
+  }
+  out.length *= sizes.scale;
+  out.diameter *= sizes.scale;
+  return out;
+}
+
+void copy_own_bodies(const Gas& gas, const PresentSizes& sizes, const std::vector<Needle>& order,
                      OwnBodies& own) {
   const std::size_t rows = gas.has_own_bodies() || gas.growth ? order.size() : 0;
   for (std::vector<double>* column : {&own.length, &own.diameter, &own.mass, &own.inertia})
     column->resize(rows);
   for (std::size_t row = 0; row < rows; ++row) {
-    const Body body = gas.body(order[row]);
-    own.length[row] = scale * body.length();
-    own.diameter[row] = scale * (2 * body.radius);
+    const BodyNumbers body = body_of(gas, sizes, order[row]);
+    own.length[row] = body.length;
+    own.diameter[row] = body.diameter;
     own.mass[row] = body.mass;
     own.inertia[row] = body.inertia;
   }
@@ -41,7 +62,6 @@ void copy_state(const Gas& gas, Time at, kernels::Isa isa, const std::vector<Nee
   out.peculiar_velocity.resize(gas.shear ? gas.size() : 0);
   out.peculiar_x.resize(gas.peculiar_x ? gas.size() : 0);
   out.species.resize(gas.composition.is_mixture() ? gas.size() : 0);
-  copy_own_bodies(gas, gas.scale_at(at), order, out.own_bodies);
   // Few enough for the columns to stay in the first-level cache.
   constexpr std::size_t at_once = 64;
   static_assert(at_once % kernels::flights_at_once == 0);
@@ -87,7 +107,7 @@ void copy_state(const Gas& gas, Time at, kernels::Isa isa, const std::vector<Nee
   }
 }
 
-FreeNeedle needle_at(const Gas& gas, Time at, Id id) {
+FreeNeedle needle_at(const Gas& gas, const PresentSizes& sizes, Time at, Id id) {
   const auto found = std::find(gas.ids.begin(), gas.ids.end(), id);
   if (found == gas.ids.end()) {
     throw InputError(fmt::format("needle {}: expected the id of a needle", id.value));
@@ -104,9 +124,9 @@ FreeNeedle needle_at(const Gas& gas, Time at, Id id) {
   out.orientation = to_array(there.u);
   out.velocity = to_array(there.v - box.image(boxes).velocity);
   out.angular_velocity = to_array(there.w);
-  const double scale = gas.scale_at(at);
-  out.length = 2 * gas.half_length(i) * scale;
-  out.diameter = 2 * gas.radius(i) * scale;
+  const BodyNumbers body = body_of(gas, sizes, i);
+  out.length = body.length;
+  out.diameter = body.diameter;
   return out;
 }
 

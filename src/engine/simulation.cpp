@@ -273,6 +273,11 @@ struct Simulation::Implementation {
     }
   }
 
+  const Composition& composition() const {
+    return composition_at_start ? *composition_at_start : run.gas.composition;
+  }
+  PresentSizes sizes() const { return {composition(), present_scale(run, scene, composition())}; }
+
   const Scene scene;
   Run run;
   std::optional<Sizing> sizing;  ///< empty if the scene sets the size of cells or capsules
@@ -296,7 +301,7 @@ class SceneWithState {
     adopt_spheres(scene_, state);
     if (lacks_numbers(scene_, state)) {
       completed_ = state;
-      completed_->own_bodies = all_numbers_of(scene, state);
+      completed_->own_bodies = all_numbers_of(scene_, state);
     }
     adopt_own_bodies(scene_, this->state());
     require_rules(scene_, Aspect::sizes);
@@ -477,24 +482,20 @@ OwnBodies Simulation::own_bodies() const {
   OwnBodies out;
   const Access self = access();
   const Gas& gas = self->run.gas;
-  copy_own_bodies(gas, gas.scale_at(self->run.now), self->by_id(), out);
+  copy_own_bodies(gas, self->sizes(), self->by_id(), out);
   return out;
 }
 OwnBodies Simulation::own_bodies_at_start() const {
   OwnBodies out;
   const Access self = access();
   const Gas& gas = self->run.gas;
-  if (!gas.has_own_bodies()) return out;
-  copy_own_bodies(gas, composition().longest() / gas.composition.longest(), self->by_id(), out);
+  if (gas.has_own_bodies()) copy_own_bodies(gas, {composition(), 1}, self->by_id(), out);
   return out;
 }
-const Composition& Simulation::composition() const {
-  const auto& at_start = implementation_->composition_at_start;
-  return at_start ? *at_start : implementation_->run.gas.composition;
-}
+const Composition& Simulation::composition() const { return implementation_->composition(); }
 std::optional<GrowthTotals> Simulation::growth() const {
   const Access self = access();
-  return growth_totals(self->run, composition());
+  return growth_totals(self->run, self->scene, composition());
 }
 std::vector<std::uint64_t> Simulation::collisions_by_pair() const {
   return needlework::collisions_by_pair(implementation_->run);
@@ -518,9 +519,11 @@ std::string Simulation::trajectory_hash() const { return implementation_->run.ta
 void Simulation::copy(State& into) const {
   const Access self = access();
   const Run& run = self->run;
+  const PresentSizes sizes = self->sizes();
   copy_state(run.gas, run.now, implementation_->isa, implementation_->by_id(), into);
+  copy_own_bodies(run.gas, sizes, implementation_->by_id(), into.own_bodies);
   into.scale.reset();
-  if (const auto sizes = growth()) into.scale = sizes->scale;
+  if (run.gas.growth) into.scale = sizes.scale;
 }
 State Simulation::copy() const {
   State out;
@@ -529,7 +532,7 @@ State Simulation::copy() const {
 }
 FreeNeedle Simulation::needle(std::uint32_t id) const {
   const Access self = access();
-  return needle_at(self->run.gas, self->run.now, {id});
+  return needle_at(self->run.gas, self->sizes(), self->run.now, {id});
 }
 void Simulation::set_velocities(std::span<const std::array<double, 3>> velocity,
                                 std::span<const std::array<double, 3>> angular_velocity) {

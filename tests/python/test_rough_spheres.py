@@ -53,6 +53,7 @@ class RoughSpheres(InFolder):
         for again in by_file, by_state:
             self.expect_same(again, sim)
             again.run(collisions=300)
+        self.assertEqual(by_file.hash, by_state.hash)
 
     def test_of_gsd(self):
         try:
@@ -99,6 +100,15 @@ class RoughSpheres(InFolder):
                 warnings.simplefilter("always")
                 sim.set_velocities(sim.velocity)
             self.assertEqual([each.category for each in found], [SceneWarning] * expected)
+
+    def test_sizes_are_the_same_bits_everywhere(self):
+        for diameter in 0.8, 0.7, 0.45:
+            other = {"name": "t", "count": 20, "length": 0, "diameter": diameter}
+            sim = Simulation({**GROWING, "species": [*SPHERES["species"], other]})
+            self.assertEqual(sim.scale, 1)
+            self.assertEqual(sim.diameter[-1], diameter)
+            sim.run(time=1)
+            np.testing.assert_array_equal(self.saved(sim).diameter, sim.diameter)
 
 
 if __name__ == "__main__":
