@@ -233,7 +233,8 @@ typedef struct needlework_collision {
   double sin_angle;          /* |u1 x u2| */
   double normal_velocity;    /* before the collision [length / time] */
   double impulse[3];         /* on the first needle [mass length / time] */
-  double energy_change;      /* of the total energy, <= 0 up to rounding */
+  double energy_change;      /* of the total energy, <= 0 up to rounding but for what growth
+                                adds */
   uint8_t contact_time_rule; /* 1 if the t_c rule made it elastic */
   struct {                   /* states of both needles just after it */
     double position[3], velocity[3], orientation[3], angular_velocity[3];
@@ -332,8 +333,10 @@ NEEDLEWORK_API int needlework_sample(needlework_simulation* simulation, int fram
  * [[species]] has one. */
 typedef struct needlework_species {
   uint64_t count;
-  double length, mass, k; /* means where bodies differ; the mass of fixed ones is infinite */
-  double t_tr, t_rot; /* at the present time: (2/3) <m v^2 / 2> and <I w^2 / 2> of its needles */
+  double length, mass, k; /* means where bodies differ; the mass of fixed ones is infinite; length
+                             and k of bodies that grow at the start */
+  double t_tr, t_rot; /* at the present time: (2/3) <m v^2 / 2> and <I w^2 / 2> of its needles, or
+                         <I w^2> / 3 of its rough spheres */
 } needlework_species;
 
 /* How needles of two species collide, and how often they have since the start. */
@@ -380,7 +383,8 @@ typedef struct needlework_rods {
 /* Copies what is known of rods at the present time. [handle] */
 NEEDLEWORK_API int needlework_get_rods(needlework_simulation* simulation, needlework_rods* rods);
 /* Writes the diameter of a species, 0 of needles, and its moment of inertia about an axis through
- * the centre and normal to its own, 0 of spheres (NULL: not wanted); means where bodies differ.
+ * the centre and normal to its own, 0 of smooth spheres and infinite of other fixed bodies (NULL:
+ * not wanted); means where bodies differ, and of bodies that grow the diameter at the start.
  * [handle] */
 NEEDLEWORK_API int needlework_get_species_shape(needlework_simulation* simulation, size_t index,
                                                 double* diameter, double* inertia);
@@ -574,7 +578,7 @@ typedef struct needlework_totals {
   double time;
   /* Translational temperature: two thirds of the mean energy of translation [energy] */
   double t_tr;
-  /* Rotational temperature: the mean energy of rotation of bodies that turn [energy] */
+  /* Rotational temperature: the mean energy of rotation per two degrees of freedom [energy] */
   double t_rot;
   /* Kinetic energy per needle, and that in gravity between walls [energy] */
   double energy;
@@ -707,7 +711,7 @@ NEEDLEWORK_API needlework_simulation* needlework_create_with_bodies(
     const uint8_t* species, const needlework_bodies* bodies, unsigned flags,
     needlework_error* error);
 /* Copies these numbers of each needle, by increasing id, to arrays of needlework_count() numbers
- * (NULL: not wanted), whether they differ or not. [handle] */
+ * (NULL: not wanted), whether they differ or not; of bodies that grow the present ones. [handle] */
 NEEDLEWORK_API int needlework_get_bodies(needlework_simulation* simulation, double* length,
                                          double* diameter, double* mass, double* inertia);
 

@@ -27,6 +27,7 @@ struct Collision {
   double normal_velocity = 0;                ///< V_n before the collision [L / time]
   std::array<double, 3> impulse{};           ///< on `first` [m L / time]
   double energy_change = 0;                  ///< change of the total energy, <= 0 up to rounding
+                                             ///< but for what growth adds
   bool contact_time_rule = false;            ///< the t_c rule applied, so that epsilon = 1 and, of
                                              ///< needles, beta = -1
   std::array<StateAfterCollision, 2> after;  ///< states of `first` and `second`; set for callbacks

@@ -34,7 +34,8 @@ struct Scene {
   using Species = needlework::Species;
   struct Initial {
     double t_tr = 1.0;   ///< translational temperature of a drawn state, (2/3) <m v^2 / 2>
-    double t_rot = 1.0;  ///< rotational temperature of a drawn state, <I w^2 / 2>
+    double t_rot = 1.0;  ///< rotational temperature of a drawn state, <I w^2 / 2>, of rough
+                         ///< spheres <I w^2> / 3
     std::string file;    ///< H5MD file whose last frame is the initial state, or "" to draw it
     std::string packing =
         "auto";  ///< of rods: "insertion", "lattice", "crossed", "compress", or what serves first

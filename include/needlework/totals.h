@@ -15,7 +15,7 @@ namespace needlework {
 struct Totals {
   double time = 0;
   double t_tr = 0;    ///< (2/3) <m v^2 / 2>
-  double t_rot = 0;   ///< <I w^2 / 2> of those that turn, which spheres do not
+  double t_rot = 0;   ///< <I w^2 / 2> of those that turn, <I w^2> / 3 of rough spheres
   double energy = 0;  ///< with gravity g along axes with walls that of -m g r, r counted from the
                       ///< low edges of the box
   std::array<double, 3> momentum{};
@@ -28,9 +28,10 @@ struct Totals {
     visit(Described{"t_tr", unit::energy,
                     "Translational temperature: two thirds of the mean energy of translation"},
           &Totals::t_tr);
-    visit(Described{"t_rot", unit::energy,
-                    "Rotational temperature: the mean energy of rotation of bodies that turn"},
-          &Totals::t_rot);
+    visit(
+        Described{"t_rot", unit::energy,
+                  "Rotational temperature: the mean energy of rotation per two degrees of freedom"},
+        &Totals::t_rot);
     visit(Described{"energy", unit::energy,
                     "Kinetic energy per needle, and that in gravity between walls"},
           &Totals::energy);
@@ -69,8 +70,10 @@ struct SpeciesTotals {
     visit(Described{"t_tr", unit::energy,
                     "Translational temperature, two thirds of the mean energy of translation"},
           t_tr);
-    visit(Described{"t_rot", unit::energy, "Rotational temperature, the mean energy of rotation"},
-          t_rot);
+    visit(
+        Described{"t_rot", unit::energy,
+                  "Rotational temperature, the mean energy of rotation per two degrees of freedom"},
+        t_rot);
   }
 };
 

@@ -55,7 +55,8 @@ class Series(Table):
     t_tr: np.ndarray
     """Translational temperature: two thirds of the mean energy of translation [energy]."""
     t_rot: np.ndarray
-    """Rotational temperature: the mean energy of rotation of bodies that turn [energy]."""
+    """Rotational temperature: the mean energy of rotation per two degrees of freedom
+    [energy]."""
     energy: np.ndarray
     """Kinetic energy per needle, and that in gravity between walls [energy]."""
     momentum: np.ndarray
@@ -88,8 +89,8 @@ class VelocitiesSet(Table):
     """Translational temperature: two thirds of the mean energy of translation [energy], [C,
     2]."""
     t_rot: np.ndarray
-    """Rotational temperature: the mean energy of rotation of bodies that turn [energy], [C,
-    2]."""
+    """Rotational temperature: the mean energy of rotation per two degrees of freedom [energy],
+    [C, 2]."""
     energy: np.ndarray
     """Kinetic energy per needle, and that in gravity between walls [energy], [C, 2]."""
     momentum: np.ndarray

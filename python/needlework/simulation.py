@@ -40,7 +40,8 @@ class Totals(Values):
     t_tr: float
     """Translational temperature: two thirds of the mean energy of translation [energy]."""
     t_rot: float
-    """Rotational temperature: the mean energy of rotation of bodies that turn [energy]."""
+    """Rotational temperature: the mean energy of rotation per two degrees of freedom
+    [energy]."""
     energy: float
     """Kinetic energy per needle, and that in gravity between walls [energy]."""
     momentum: np.ndarray
@@ -62,7 +63,8 @@ class SpeciesTotals(Values):
     t_tr: float
     """Translational temperature, two thirds of the mean energy of translation [energy]."""
     t_rot: float
-    """Rotational temperature, the mean energy of rotation [energy]."""
+    """Rotational temperature, the mean energy of rotation per two degrees of freedom
+    [energy]."""
     # end of numbers
 
 

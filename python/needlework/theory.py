@@ -31,7 +31,7 @@ class CoolingCurve(Table):
     t_tr: np.ndarray
     """Translational temperature, two thirds of the mean energy of translation."""
     t_rot: np.ndarray
-    """Rotational temperature, the mean energy of rotation."""
+    """Rotational temperature, the mean energy of rotation per two degrees of freedom."""
     energy: np.ndarray
     """Energy of a needle, 3/2 t_tr + t_rot."""
     collisions_per_needle: np.ndarray

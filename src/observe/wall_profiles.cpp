@@ -61,8 +61,7 @@ class WallProfiles : public Observable {
          "Translational temperature in each slab, two thirds of the mean energy of "
          "translation",
          unit::energy, each},
-        {"t_rot", "Rotational temperature in each slab, the mean energy of rotation", unit::energy,
-         each},
+        {"t_rot", "Rotational temperature in each slab", unit::energy, each},
         {"t_normal", "Temperature of the motion along the axis in each slab, twice its mean energy",
          unit::energy, each},
         {"velocity", "Mean velocity in each slab", unit::speed, vectors},
