@@ -61,7 +61,7 @@ def main():
     all_of = sum(int(row.split("|")[2]) for row in rows.values())
     text = f"""# Long audits
 
-Made by `bench/audits/audits.py`. Each scene has 60 to 120 bodies; the audit follows every pair between all collisions. With none wrong in {all_of} collisions, fewer than {3 / all_of:.1g} of the contacts of such scenes are missed, on average over them (95 %).
+Made by `bench/audits/audits.py`. Each scene has 60 to 120 bodies; the audit follows every pair between all collisions. With none wrong in {all_of} collisions, fewer than {3 / all_of:.2g} of the contacts of such scenes are missed, on average over them (95 %).
 
 | scene | collisions | flights of pairs | hits, kicks, draws of the thermostat | missed, spurious, late, early, in wrong order, by a wrong rule, wrong start or end | undecided | commit |
 | --- | --- | --- | --- | --- | --- | --- |
