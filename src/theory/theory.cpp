@@ -85,7 +85,9 @@ double asymptotic_ratio_of_spheres(double q, const Restitution& rule) {
                c = eta / q * (1 - eta / q);
   const bool is_elastic = epsilon == 1 && rule.beta == 1;
   if (b == 0 || is_elastic) return std::numeric_limits<double>::quiet_NaN();
-  return 2 * b / (a - c + std::hypot(a - c, 2 * b));
+  const double root = std::hypot(a - c, 2 * b);
+  // The same twice; of two numbers that nearly cancel, one would lose its digits.
+  return a > c ? 2 * b / (a - c + root) : (c - a + root) / (2 * b);
 }
 
 double asymptotic_ratio(const Gas& gas) {

@@ -111,6 +111,8 @@ TEST_F(TheoryCommand, FollowsRoughSpheresWithoutAScene) {
   const double per_time = of_scene["collisions_per_time"]["hollow-hollow"].get<double>();
   const auto soon = json_of(spheres + " --q 0.5 --density 0.1 --time 1e-6 --json");
   EXPECT_NEAR(soon["collisions_per_needle"][0].get<double>(), 2 * per_time / 101 * 1e-6, 1e-11);
+  // Spins of little inertia follow the flights at once.
+  EXPECT_NEAR(json_of("theory --epsilon 1 --beta 0 --q 1e-9 --json")["c"].get<double>(), 1e9, 10);
   EXPECT_TRUE(
       contains(output_of(spheres + " --q 0.4 --tau 2"),
                {"epsilon 0.9, beta 0.5, q 0.4\n", "tends to c = ", "\n               2  "}));
