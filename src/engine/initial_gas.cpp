@@ -298,10 +298,15 @@ std::vector<std::array<double, 3>> velocities_of(const Gas& gas, const State& in
 
 }  // namespace
 
-// Momentum along y would carry needles to where the flow is faster, all the time.
-void require_steady_flow(const Gas& gas, std::string_view what,
+// Momentum along y would carry needles to where the flow is faster, all the time; but a thermostat,
+// walls that draw velocities and fixed bodies change it.
+void require_steady_flow(const Scene& scene, const Gas& gas, std::string_view what,
                          const std::function<double(Needle)>& velocity_y) {
-  if (!gas.shear) return;
+  const bool is_kept = !scene.driving.andersen && !gas.composition.has_fixed() &&
+                       std::ranges::none_of(scene.walls, [](const auto& wall) {
+                         return wall.temperature.has_value();
+                       });
+  if (!gas.shear || !is_kept) return;
   constexpr double most = 0x1p-20;  // beyond what rounding to single precision does
   double sum = 0, size = 0;
   for (Needle i{0}; i < gas.size(); ++i) {
@@ -381,7 +386,7 @@ Gas make_gas(const Scene& scene, const State& initial) {
   set_own_bodies(gas, composition, growth.largest, initial, order);
   if (scene.driving.growth) let_grow(gas, scene, growth);
   require_fixed_at_rest(gas);
-  require_steady_flow(gas, "state", [&](Needle i) { return gas.records[i].flight.v.y; });
+  require_steady_flow(scene, gas, "state", [&](Needle i) { return gas.records[i].flight.v.y; });
   require_inside(scene, gas);
   require_room_for_rods(gas);
   return gas;

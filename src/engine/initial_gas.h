@@ -21,8 +21,9 @@ void set_shear(Gas& gas, const Scene& scene, double slide);
 Gas make_gas(const Scene& scene, const State& initial);
 
 /// Throws InputError, "WHAT: ...", if bodies with these velocities along y would be carried to
-/// where the flow is faster, all the time. Anything goes where there is no flow.
-void require_steady_flow(const Gas& gas, std::string_view what,
+/// where the flow is faster, all the time. Anything goes where there is no flow, or something of
+/// the scene changes that momentum.
+void require_steady_flow(const Scene& scene, const Gas& gas, std::string_view what,
                          const std::function<double(Needle)>& velocity_y);
 
 }  // namespace needlework

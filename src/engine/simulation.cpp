@@ -181,7 +181,8 @@ struct Simulation::Implementation {
     run.require_followable(
         sums, std::ranges::any_of(velocity, moves) || std::ranges::any_of(angular_velocity, moves));
     const std::vector<Needle> ranks = ranks_of(rows);
-    require_steady_flow(run.gas, "set_velocities", [&](Needle i) { return velocity[ranks[i]][1]; });
+    require_steady_flow(scene, run.gas, "set_velocities",
+                        [&](Needle i) { return velocity[ranks[i]][1]; });
     // On which sides needles are that touch now is known once all have searched.
     if (loop) loop->prepare(nullptr);
     replace([&] {

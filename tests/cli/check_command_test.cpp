@@ -62,6 +62,7 @@ walls = [{ axis = "z", side = "both" }]
   object.update(run("check small.toml --json --set needles.diameter=0.1").json());
   write("piston.toml", piston);
   object.update(run("check piston.toml --json").json());
+  object.update(run("check small.toml --json --set shear.rate=0.1").json());
   EXPECT_EQ(keys_of(object), sorted(described_keys("json.md")["Scene explained by check"]));
 }
 
@@ -264,7 +265,7 @@ TEST_F(CheckCommand, WarnsOfADriftThatAStateWithoutAFlowHasInOne) {
         "needles = { count = 50, box = 5 }\nuntil.time = 0\noutput.file = 'still.h5'\n");
   ASSERT_EQ(run("run still.toml").exit_code, 0);
   write("on.toml", "initial.file = 'still.h5'\nuntil.time = 1\n");
-  const std::string drift = "still.h5\": says no flow";
+  const std::string drift = "still.h5': says no flow";
   EXPECT_FALSE(contains(run("check on.toml").err, drift));
   EXPECT_TRUE(contains(run("check on.toml --set shear.rate=1").err, drift));
   EXPECT_FALSE(contains(run("check on.toml --set shear.rate=1e-3").err, drift));

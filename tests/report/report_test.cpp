@@ -216,7 +216,9 @@ pairs = [{ between = ["balls", "balls"], beta = )" +
             std::to_string(beta) + " }]\n",
         "scene", {});
     io::Writer writer(path("run.h5"), true, scene, {"scalar", 1, 1.0});
-    writer.write_frame(totals(0), state(3, 0));
+    State in_flow = state(3, 0);
+    in_flow.peculiar_velocity = in_flow.velocity;
+    writer.write_frame(totals(0), in_flow);
     writer.close();
     return page_of({"run.h5"}).json["sections"][0]["scene"];
   };
