@@ -133,13 +133,14 @@ std::string species_text(const Composition& composition, const io::Configuration
       text += "# each body has the length, diameter, mass and moment of inertia of the state\n";
     } else {
       text += fmt::format("length = {}\n", each.length);
-      if (!each.fixed) text += fmt::format("mass = {}\nk = {}\n", each.mass, each.k);
+      const double inertia = io::number_of(read.material.inertia, n, 0);
+      const bool is_rough_sphere = !each.has_axis() && inertia > 0;
+      const auto shape = is_rough_sphere ? std::pair("inertia", inertia) : std::pair("k", each.k);
+      if (!each.fixed)
+        text += fmt::format("mass = {}\n{} = {}\n", each.mass, shape.first, shape.second);
       // A state of unknown length says no diameter either.
       const bool is_said = each.diameter > 0 || !is_length_known;
       if (is_said) text += fmt::format("diameter = {}\n", each.diameter);
-      const double inertia = io::number_of(read.material.inertia, n, 0);
-      if (!each.fixed && !each.has_axis() && inertia > 0)
-        text += fmt::format("inertia = {}\n", inertia);
     }
     if (each.fixed) text += "fixed = true\n";
     if (each.fixed && composition.has_width())

@@ -44,6 +44,29 @@ TEST_F(ImportCommand, MakesASceneThatRuns) {
   EXPECT_EQ(shell("cd a && " NEEDLEWORK_PROGRAM " run b/scene.toml --quiet").exit_code, 0);
 }
 
+// Of which the one species is said, and the other homogeneous by default.
+TEST_F(ImportCommand, KeepsRoughSpheresThatWereExported) {
+  write("s.toml",
+        "needles.box = 6\ncollisions.beta = 0.5\nuntil.time = 1\n"
+        "[[species]]\nname = \"a\"\ncount = 20\nlength = 0\ndiameter = 0.8\ninertia = 0.05\n"
+        "[[species]]\nname = \"b\"\ncount = 20\nlength = 0\ndiameter = 0.5\n");
+  ASSERT_EQ(run("run s.toml --out run.h5 --quiet").exit_code, 0);
+  const State before = io::read_last_frame(path("run.h5"));
+  const std::string on = " --quiet --set collisions.beta=0.5 --set until.time=1 --out ";
+  for (const std::string name : {"run.xyz", "run.dump"}) {
+    ASSERT_EQ(run("export run.h5 " + name).exit_code, 0);
+    const Outcome imported = run("import --force --out a " + name);
+    ASSERT_EQ(imported.exit_code, 0) << imported.err;
+    const State state = io::read_last_frame(path("a/state.h5"));
+    EXPECT_EQ(state.angular_velocity, before.angular_velocity) << name;
+    const Scene scene = read_scene(path("a/scene.toml"));
+    for (std::size_t n = 0; n < 2; ++n)
+      EXPECT_EQ(scene.species.at(n).given_inertia.value_or(0), before.bodies.inertia.at(n));
+    const Outcome ran = run("run a/scene.toml" + on + name + ".h5");
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  }
+}
+
 TEST_F(ImportCommand, KeepsExistingFilesUnlessForced) {
   write("lines.xml", dynamo_text);
   ASSERT_EQ(run("import lines.xml --out a").exit_code, 0);

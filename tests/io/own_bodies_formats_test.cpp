@@ -95,7 +95,8 @@ TEST_F(OwnBodiesFormats, RoughSpheresKeepMomentsOfInertiaAndSpins) {
       const Configuration read = read_configuration(put(name, {state}, its));
       expect_same_bodies(read.state.own_bodies, state.own_bodies, name);
       EXPECT_EQ(read.state.angular_velocity, state.angular_velocity) << name;
-      if (state.own_bodies.empty()) EXPECT_EQ(read.material.inertia, its.inertia) << name;
+      if (!state.own_bodies.empty()) continue;
+      EXPECT_EQ(read.material.inertia, its.inertia) << name;
     }
   }
 }
