@@ -172,12 +172,15 @@ std::optional<std::array<double, 3>> three_in(const Json& request, const char* f
   return value->get<std::array<double, 3>>();
 }
 
-void require_only(const Json& request, std::initializer_list<const char*> fields) {
+void require_only(const Json& request, std::initializer_list<const char*> fields,
+                  std::span<const std::string_view> more) {
   for (const auto& [name, value] : request.items()) {
     if (name == "do" || name == "id") continue;
     if (std::find(fields.begin(), fields.end(), name) != fields.end()) continue;
-    throw RequestError(fmt::format("{} = {}: expected one of the fields do, id, {}", name,
-                                   shown(value), fmt::join(fields, ", ")));
+    if (std::find(more.begin(), more.end(), name) != more.end()) continue;
+    throw RequestError(fmt::format("{} = {}: expected one of the fields do, id, {}{}{}", name,
+                                   shown(value), fmt::join(fields, ", "), more.empty() ? "" : ", ",
+                                   fmt::join(more, ", ")));
   }
 }
 

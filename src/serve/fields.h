@@ -44,6 +44,7 @@ std::optional<std::vector<double>> numbers_in(const Json& request, const char* f
 std::optional<std::array<double, 3>> three_in(const Json& request, const char* field);
 
 /// Throws RequestError for a field that is neither "do" nor "id" nor one of these.
-void require_only(const Json& request, std::initializer_list<const char*> fields);
+void require_only(const Json& request, std::initializer_list<const char*> fields,
+                  std::span<const std::string_view> more = {});
 
 }  // namespace needlework::serve

@@ -35,6 +35,25 @@ using json::parse_shallow;
 using json::text_of;
 namespace {
 
+// What a state answers, and what a simulation is created from.
+constexpr std::array<std::string_view, 17> state_arrays{"position",
+                                                        "velocity",
+                                                        "orientation",
+                                                        "angular_velocity",
+                                                        "image",
+                                                        "needle_id",
+                                                        "species",
+                                                        "bodies",
+                                                        "length",
+                                                        "diameter",
+                                                        "mass",
+                                                        "inertia",
+                                                        "box",
+                                                        "low",
+                                                        "peculiar_velocity",
+                                                        "slide",
+                                                        "shear_rate"};
+
 /// Infinity and NaN, which JSON does not have, become null.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
@@ -277,26 +296,7 @@ runs::PreparedRun& Requests::run_of(const Json& request) {
 }
 
 Json Requests::create(const Json& request, const Connection&) {
-  require_only(request, {"scene",
-                         "path",
-                         "force",
-                         "position",
-                         "orientation",
-                         "velocity",
-                         "angular_velocity",
-                         "image",
-                         "needle_id",
-                         "species",
-                         "bodies",
-                         "length",
-                         "diameter",
-                         "mass",
-                         "inertia",
-                         "box",
-                         "low",
-                         "peculiar_velocity",
-                         "slide",
-                         "shear_rate"});
+  require_only(request, {"scene", "path", "force"}, state_arrays);
   const bool force = flag_in(request, "force");
   runs::LoadedScene loaded = scene_in(request);
   runs::require_writable_output(loaded.scene, force, text_in(request, "path").value_or(""),
@@ -357,24 +357,7 @@ Json Requests::state(const Json& request, const Connection&) {
     runs::write_state(run.simulation(), run.scene(), run.data(), *file, flag_in(request, "force"));
     return {{"file", *file}};
   }
-  static constexpr std::array<std::string_view, 17> arrays{"position",
-                                                           "velocity",
-                                                           "orientation",
-                                                           "angular_velocity",
-                                                           "image",
-                                                           "needle_id",
-                                                           "species",
-                                                           "bodies",
-                                                           "length",
-                                                           "diameter",
-                                                           "mass",
-                                                           "inertia",
-                                                           "box",
-                                                           "low",
-                                                           "peculiar_velocity",
-                                                           "slide",
-                                                           "shear_rate"};
-  const auto wanted = names_in(request, "arrays", arrays);
+  const auto wanted = names_in(request, "arrays", state_arrays);
   State state = run.simulation().copy();
   state.species.resize(state.size());  // of one species all are 0
   Json answer{{"time", run.simulation().time()}, {"needles", state.size()}};
