@@ -175,14 +175,16 @@ BodyOfRow body_at(const std::vector<Species>& all, const State& state, std::size
                 .mass = number(own.mass, species.mass_or_infinity()),
                 .k = species.k,
                 .inertia = 0};
-  const Species as_it_is{.length = out.length,
-                         .mass = out.mass,
-                         .k = species.k,
-                         .diameter = out.diameter,
-                         .q = species.q};
+  Species as_it_is{.length = out.length,
+                   .mass = out.mass,
+                   .k = species.k,
+                   .diameter = out.diameter,
+                   .q = species.q};
   out.inertia = number(own.inertia, as_it_is.turns() ? as_it_is.inertia() : 0);
-  if (!own.inertia.empty() && out.length > 0 && std::isfinite(out.inertia))
-    out.k = out.mass * (out.length * out.length) / 2 / out.inertia;
+  if (!own.inertia.empty() && out.length > 0 && std::isfinite(out.inertia)) {
+    as_it_is.set_inertia(out.inertia);
+    out.k = as_it_is.k;
+  }
   return out;
 }
 
