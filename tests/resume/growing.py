@@ -2,9 +2,10 @@
 
     growing.py NEEDLEWORK
 
-The run writes frames, and so flushes its file, thousands of times in a second. Readers that do not
-expect a file to grow fail at every second to third attempt; if the file is shorter for an instant
-than it says, one of some hundred openings fails.
+The run writes frames, and so flushes its file, up to thousands of times in a second; between two of
+them there are some ten collisions, so that all tables grow however slow the machine is. Readers
+that do not expect a file to grow fail at every second to third attempt; if the file is shorter for
+an instant than it says, one of some hundred openings fails.
 """
 
 import subprocess
@@ -19,8 +20,9 @@ SCENE = """
 needles = { count = 100, box = 5.4 }
 collisions.epsilon = 0.9
 collisions.tc_relative = 1e-3
-until.energy_ratio = 1e-300
-output = { series_every = 0.01, events = true, frames = 20000, checkpoint_every = 1e6 }
+driving.andersen = { rate = 0.3, temperature = 1 }
+until.time = 5000
+output = { series_every = 0.1, events = true, frames_every = 0.1, checkpoint_every = 1e6 }
 """
 SECONDS = 4  # of reading, and half of it of opening
 
