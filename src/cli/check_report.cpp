@@ -552,7 +552,7 @@ std::string text_of(const runs::Explanation& e) {
                                   box[2], e.density, unit_of_volume(composition)));
   if (composition.has_width()) {
     const bool overlap = std::ranges::any_of(composition.species(), &Species::overlap);
-    text += line("packing", fmt::format("{:.4g} of the box is taken up by rods{}",
+    text += line("packing", fmt::format("{:.4g} of the box is taken up by bodies{}",
                                         composition.packing_fraction(box[0] * box[1] * box[2]),
                                         overlap ? ", where they overlap more than once" : ""));
   }

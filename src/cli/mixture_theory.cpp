@@ -131,7 +131,8 @@ Json json_of(const MixturePredictions& p) {
 }
 
 std::string mixture_table(const MixturePredictions& p) {
-  std::string text = "at the start\n";
+  std::string text =
+      p.composition.has_width() ? "at the start, as at low density\n" : "at the start\n";
   for (std::size_t a = 0; a < p.composition.size(); ++a) {
     for (std::size_t b = a; b < p.composition.size(); ++b) {
       text += fmt::format("  {:<24}{:>14.8g} collisions per time\n", pair_name(p.composition, a, b),

@@ -20,6 +20,14 @@ struct BodyNumbers {
   friend bool operator==(const BodyNumbers&, const BodyNumbers&) = default;
 };
 
+/// k of a needle or rod. [1]
+inline double k_of(double mass, double length, double inertia) {
+  return mass * (length * length) / (2 * inertia);
+}
+/// The moment of inertia of a needle or rod. [m L^2]
+inline double inertia_of_rod(double mass, double length, double k) {
+  return mass * (length * length) / (2 * k);
+}
 /// 4 I / (m D^2) of a sphere.
 inline constexpr double q_of_homogeneous = 0.4;
 /// The mass of a sphere is nowhere farther from its centre than its surface, but for rounding.
@@ -75,7 +83,7 @@ class SizesOfBodies {
     diameter_.add(body.diameter);
     mass_.add(body.mass);
     inertia_.add(body.inertia);
-    if (body.length > 0) k_.add(body.mass * (body.length * body.length) / (2 * body.inertia));
+    if (body.length > 0) k_.add(k_of(body.mass, body.length, body.inertia));
     product_.add(body.length * body.diameter);
     square_.add(square);
     cube_.add(square * body.diameter);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 #include <vector>
@@ -207,6 +208,49 @@ void require_inside(const Scene& scene, const Gas& gas) {
   }
 }
 
+// How far a wall comes into the box [L], and the key that says so.
+struct Advance {
+  double distance = 0;
+  const char* key = "";
+  double value = 0;
+};
+Advance advance_of(const Scene::WallMotion& motion, bool is_high, double edge) {
+  if (!motion.velocity) return {motion.amplitude, "walls.motion.amplitude", motion.amplitude};
+  if (is_high == (*motion.velocity > 0)) return {};
+  if (!motion.stop_at) {
+    return {std::numeric_limits<double>::infinity(), "walls.motion.velocity", *motion.velocity};
+  }
+  const double stop = *motion.stop_at;
+  return {is_high ? edge - stop : stop, "walls.motion.stop_at", stop};
+}
+
+// That no wall moves as far as to where a needle is fixed.
+void require_fixed_out_of_the_way(const Scene& scene, const Gas& gas) {
+  if (!gas.composition.has_fixed()) return;
+  for (const Scene::WallSide& side : scene.wall_sides()) {
+    const auto& motion = scene.walls[side.entry].motion;
+    if (!motion) continue;
+    const double edge = gas.box.edge(side.axis);
+    const Advance advance = advance_of(*motion, side.is_high, edge);
+    for (Needle i{0}; i < gas.size(); ++i) {
+      if (!gas.is_fixed(i)) continue;
+      const Vec3d& u = gas.records[i].flight.u;
+      const double half = gas.half_length(i) / std::hypot(u.x, u.y, u.z);
+      const double reach = half * std::abs(to_array(u)[side.axis]) + gas.radius(i);
+      const double centre = to_array(gas.records[i].flight.r)[side.axis];
+      const double room = (side.is_high ? edge - centre : centre) - reach;
+      if (advance.distance <= room + gas.touch_tolerance()) continue;
+      const bool is_piston = motion->velocity.has_value();
+      throw InputError(fmt::format(
+          "{}: expected {} of at {} {:.10g}, where needle {} is fixed",
+          place_of(scene, key_of_entry(advance.key, side.entry), fmt::to_string(advance.value)),
+          !is_piston || motion->stop_at ? "one" : "a motion.stop_at",
+          is_piston && side.is_high ? "least" : "most",
+          is_piston && side.is_high ? edge - room : room, gas.ids[i].value));
+    }
+  }
+}
+
 // That no two rods overlap but by rounding, and that smooth spheres do not turn.
 void require_room_for_rods(const Gas& gas) {
   if (!gas.composition.has_width()) return;
@@ -388,6 +432,7 @@ Gas make_gas(const Scene& scene, const State& initial) {
   require_fixed_at_rest(gas);
   require_steady_flow(scene, gas, "state", [&](Needle i) { return gas.records[i].flight.v.y; });
   require_inside(scene, gas);
+  require_fixed_out_of_the_way(scene, gas);
   require_room_for_rods(gas);
   return gas;
 }

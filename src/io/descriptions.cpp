@@ -279,7 +279,7 @@ std::vector<Description> rod_descriptions(bool of_each_species) {
       {"/parameters/length", "Length of the axis of a rod, without its caps", length, shape},
       {"/parameters/diameter", "Diameter of a rod", length, shape},
       {"/parameters/inertia",
-       "Moment of inertia of a rod about an axis through its centre, normal to it", "mass length^2",
+       "Moment of inertia about an axis through the centre, of a rod normal to it", "mass length^2",
        shape},
   };
 }

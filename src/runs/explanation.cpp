@@ -85,7 +85,7 @@ std::vector<Hitting> hitting_walls(const LoadedScene& loaded) {
     if (its.fixed || !its.sizes) continue;
     const BodyNumbers body = members.body(i);
     Species alone{.length = body.length, .mass = body.mass, .diameter = body.diameter};
-    if (alone.has_axis()) alone.k = body.mass * (body.length * body.length) / (2 * body.inertia);
+    if (alone.has_axis()) alone.k = k_of(body.mass, body.length, body.inertia);
     out.push_back({std::move(alone), 1, now[members.species[i]]});
   }
   return out;

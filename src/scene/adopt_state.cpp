@@ -61,9 +61,7 @@ void require_agreement(const Scene& scene, const char* key, std::size_t n, doubl
          fmt::to_string(expected));
 }
 
-double k_with(double inertia, const Species& body) {
-  return body.mass * (body.length * body.length) / (2 * inertia);
-}
+double k_with(double inertia, const Species& body) { return k_of(body.mass, body.length, inertia); }
 
 // What a state says of the k of a body whose other dimensions are known.
 std::optional<double> known_k(const Scene& scene, const Species& body, std::size_t n,
@@ -75,19 +73,21 @@ std::optional<double> known_k(const Scene& scene, const Species& body, std::size
   const double k = bodies.k[n];
   if (is_inertia_known && !agrees(k_with(inertia, body), k)) {
     throw InputError(fmt::format("{}: inertia = {} of its bodies: expected {}, as with their k",
-                                 source_of_state(scene), inertia, k_with(k, body)));
+                                 source_of_state(scene), inertia,
+                                 inertia_of_rod(body.mass, body.length, k)));
   }
   return k;
 }
 
 // k of a body whose other dimensions are known.
-double k_of(const Scene& scene, const Species& body, std::size_t n, const Bodies& bodies) {
+double adopted_k(const Scene& scene, const Species& body, std::size_t n, const Bodies& bodies) {
   const double by_inertia = body.given_inertia ? k_with(*body.given_inertia, body) : 0;
   const bool is_k_said = is_said(scene, "k", n, body.k == Species{}.k);
   if (const auto known = known_k(scene, body, n, bodies)) {
     const double k = *known;
     if (body.given_inertia && !agrees(by_inertia, k)) {
-      require_agreement(scene, "inertia", n, *body.given_inertia, k_with(k, body));
+      require_agreement(scene, "inertia", n, *body.given_inertia,
+                        inertia_of_rod(body.mass, body.length, k));
     } else if (is_k_said && !body.given_inertia) {
       require_agreement(scene, "k", n, body.k, k);
     }
@@ -139,7 +139,7 @@ Species completed(const Scene& scene, Species body, std::size_t n, const Bodies&
     body.*value = expected;
   }
   if (body.has_axis()) {
-    body.k = k_of(scene, body, n, bodies);
+    body.k = adopted_k(scene, body, n, bodies);
     body.given_inertia.reset();
   } else {
     adopt_inertia_of_sphere(scene, body, n, bodies);

@@ -55,7 +55,7 @@ std::optional<WrongBody> wrong_number_of(const BodyNumbers& body) {
     if (body.inertia == 0 || is_inertia_of_sphere(body)) return {};
     return WrongBody{0, "inertia", body.inertia, expected_inertia_of_sphere};
   }
-  const double k = body.mass * (body.length * body.length) / (2 * body.inertia);
+  const double k = k_of(body.mass, body.length, body.inertia);
   if (range_of_k.holds(k)) return {};
   return WrongBody{0, "inertia", body.inertia,
                    fmt::format("one with which k = m L^2 / (2 I) is {}", range_of(range_of_k))};
@@ -127,7 +127,7 @@ class BodyMaker {
     } else if (out.length == 0) {
       out.inertia = inertia_of(species_.q, out.mass, out.diameter);
     } else {
-      out.inertia = out.mass * (out.length * out.length) / (2 * k_of(out, id));
+      out.inertia = inertia_of_rod(out.mass, out.length, drawn_k(out, id));
     }
     return out;
   }
@@ -142,7 +142,7 @@ class BodyMaker {
     if (!quantiles_[quantity]) return numbers_[quantity];
     return (*quantiles_[quantity])(NeedleRandom(seed_, id, RandomFor::size, quantity).bits());
   }
-  double k_of(const BodyNumbers& body, std::uint64_t id) const {
+  double drawn_k(const BodyNumbers& body, std::uint64_t id) const {
     if (const auto k = drawn(3, id)) return *k;
     const bool is_homogeneous = species_.drawn.homogeneous && body.diameter > 0;
     return is_homogeneous ? homogeneous_k(body.length, body.diameter) : species_.k;
@@ -237,7 +237,7 @@ BodyNumbers body_of_row(const OwnBodies& own, std::size_t row, const Species& sp
   take(out.inertia, own.inertia);
   if (species.fixed) {
     if (std::isinf(out.mass)) out.mass = species.mass;
-    out.inertia = out.mass * (out.length * out.length) / (2 * species.k);
+    out.inertia = inertia_of_rod(out.mass, out.length, species.k);
   }
   if (out.length == 0) {
     // Files of smooth spheres say 0.

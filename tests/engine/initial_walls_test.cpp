@@ -62,5 +62,31 @@ TEST(GivenState, LiesInsideTheWalls) {
   EXPECT_EQ(complaint(Scene{}, 0.375), "none");
 }
 
+TEST(GivenState, HasNoFixedNeedleWhereAWallMovesTo) {
+  Scene scene;
+  scene.species = {{.name = "free", .count = 2},
+                   {.name = "still", .count = 1, .fixed = true}};  // needle 9, at z from 1 to 2
+  const auto with = [&](const char* side, const Scene::WallMotion& motion) {
+    scene.walls = {{.axis = "z", .side = side, .motion = motion}};
+    return complaint(scene, 1.5);
+  };
+  using Motion = Scene::WallMotion;
+  EXPECT_EQ(with("low", Motion{.amplitude = 1}), "none");
+  EXPECT_EQ(with("low", Motion{.amplitude = 1.25}),
+            "walls.motion.amplitude = 1.25: expected one of at most 1, where needle 9 is fixed");
+  EXPECT_EQ(with("high", Motion{.amplitude = 1.25}),
+            "walls.motion.amplitude = 1.25: expected one of at most 1, where needle 9 is fixed");
+  EXPECT_EQ(with("low", Motion{.velocity = -1}), "none");
+  EXPECT_EQ(with("high", Motion{.velocity = 1}), "none");
+  EXPECT_EQ(with("low", Motion{.velocity = 1, .stop_at = 1}), "none");
+  EXPECT_EQ(with("low", Motion{.velocity = 1, .stop_at = 1.25}),
+            "walls.motion.stop_at = 1.25: expected one of at most 1, where needle 9 is fixed");
+  EXPECT_EQ(with("high", Motion{.velocity = -1, .stop_at = 1.75}),
+            "walls.motion.stop_at = 1.75: expected one of at least 2, where needle 9 is fixed");
+  EXPECT_EQ(with("low", Motion{.velocity = 1}),
+            "walls.motion.velocity = 1: expected a motion.stop_at of at most 1, where needle 9 is "
+            "fixed");
+}
+
 }  // namespace
 }  // namespace needlework

@@ -45,7 +45,9 @@ SceneSection initial_section() {
       .exclusions = {{"initial.file", "initial.t_tr", not_both, replaces},
                      {"initial.file", "initial.t_rot", not_both, replaces},
                      {"initial.file", "species.t_tr", not_both, replaces},
-                     {"initial.file", "species.t_rot", not_both, replaces}},
+                     {"initial.file", "species.t_rot", not_both, replaces},
+                     {"initial.file", "initial.packing",
+                      "expected either file or packing, not both: a file says places", replaces}},
   };
 }
 

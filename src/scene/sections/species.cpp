@@ -89,8 +89,7 @@ std::optional<Violation> inertia_is_impossible(const Scene& scene) {
                   .value = fmt::to_string(*species.given_inertia),
                   .reason = "expected either k or inertia, not both"};
     if (scene.places.contains(key_of_entry("species.k", n))) return out;
-    const double k =
-        species.mass * (species.length * species.length) / (2 * *species.given_inertia);
+    const double k = k_of(species.mass, species.length, *species.given_inertia);
     if (species.drawn != DrawnSizes{}) continue;  // each body is looked at
     if (!species.has_axis()) {
       const Species made = scene.composition()[n];
