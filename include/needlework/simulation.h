@@ -181,13 +181,14 @@ class Simulation {
   FreeNeedle needle(std::uint32_t id) const;
 
   /// Replaces the velocities of all needles at the present time. Rows are in order of id, as copy()
-  /// gives them: with the flow of a shear rate, across which their momentum is to be 0. The part of
-  /// an angular velocity along the director is removed. Needles that touch stay on their sides.
-  /// Temperatures, mean free time and the contact time in force follow the new velocities. The
-  /// memory of the t_c rule, the hash of previous collisions, all counts and the initial energy,
-  /// to which energy_ratio refers, are kept. Costs about as much as constructing the simulation,
-  /// as all needles are searched again. Must not be called by the callback. Throws InputError for a
-  /// wrong number of rows, numbers not finite or motion of fixed needles, and then changes nothing.
+  /// gives them: with the flow of a shear rate, across which their momentum must be 0 unless a
+  /// thermostat or thermal walls change it. The part of an angular velocity along the director is
+  /// removed. Needles that touch stay on their sides. Temperatures, mean free time and the contact
+  /// time in force follow the new velocities. The memory of the t_c rule, the hash of previous
+  /// collisions, all counts and the initial energy, to which energy_ratio refers, are kept. Costs
+  /// about as much as constructing the simulation, as all needles are searched again. Must not be
+  /// called by the callback. Throws InputError for a wrong number of rows, numbers not finite or
+  /// motion of fixed needles, and then changes nothing.
   void set_velocities(std::span<const std::array<double, 3>> velocity,
                       std::span<const std::array<double, 3>> angular_velocity);
 

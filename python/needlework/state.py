@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from .values import Table
+from .values import Table, Values
 
 ARRAYS = ("position", "velocity", "orientation", "angular_velocity", "image", "id", "species")
 NUMBERS_OF_BODIES = ("length", "diameter", "mass", "k", "inertia")
@@ -78,7 +78,7 @@ class State(Table):
     low: np.ndarray
     """Where its low edges are, [3] [L]; a simulation that starts moves them to 0."""
     # Under uniform shear:
-    flow: dict[str, float]
+    flow: Mapping[str, float]
     """slide, of the row of boxes above [L], and shear_rate [1 / time]."""
     # Where bodies of a species differ:
     length: np.ndarray
@@ -99,7 +99,7 @@ class State(Table):
         velocity move them: box, low."""
         values = {**dict(zip(ARRAYS, arrays)), **(own or {}), "bodies": bodies}
         if flow is not None:
-            values["flow"] = {"slide": flow[0], "shear_rate": flow[1]}
+            values["flow"] = Values({"slide": flow[0], "shear_rate": flow[1]})
         if edges is not None:
             values["box"], values["low"] = edges
         return cls(values)
@@ -118,7 +118,7 @@ class State(Table):
             known = np.divide(shape, 2 * bodies["k"], out=np.zeros_like(shape), where=turns)
         else:
             known = np.asarray(np.nan)
-        return np.broadcast_to(known, max(known.size, 1))[self._values["species"]]
+        return read_only(np.broadcast_to(known, max(known.size, 1))[self._values["species"]])
 
     # The items are the arrays, one row for each needle. keys() names the bodies, too, so that
     # ``**state`` hands them over.

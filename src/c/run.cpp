@@ -144,7 +144,9 @@ int needlework_run_until(needlework_simulation* simulation, const needlework_lim
     if (limits) return c::until_of(*limits, self, runs::from_start);
     if (!has_end(self.run.scene()))
       throw c::UsageError("limits is NULL: expected limits, as the scene has no [until]");
-    return self.run.scene().until;
+    return c::until_of({}, self, [&](const runs::Limits& none, const Simulation& simulation) {
+      return runs::from_start_or_scene(none, self.run.scene(), simulation);
+    });
   });
 }
 

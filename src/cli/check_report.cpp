@@ -398,6 +398,7 @@ std::string until_text(const Scene& scene) {
   add("collisions_per_needle", until.collisions_per_needle);
   add("energy_ratio", until.energy_ratio);
   add("wall_s", until.wall_s);
+  if (scene.driving.growth) conditions.emplace_back("the end of growth");
   // 2 collisions / N, whether or not they move.
   const bool counts_fixed = until.collisions_per_needle && scene.composition().has_fixed();
   return fmt::format("{}{}", fmt::join(conditions, " or "),

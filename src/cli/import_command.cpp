@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -252,12 +253,26 @@ std::optional<std::size_t> frame_number(const std::string& frame) {
   return frame == "first" ? 0 : std::stoull(frame);
 }
 
+bool has_rough_spheres(const io::Configuration& read) {
+  const std::vector<Species> species = io::species_of(read.material);
+  for (std::size_t i = 0; i < read.state.size(); ++i) {
+    const io::BodyOfRow body = io::body_at(species, read.state, i);
+    if (body.length == 0 && body.inertia > 0 && std::isfinite(body.mass)) return true;
+  }
+  return false;
+}
+
 io::Configuration read_configuration(const ImportArguments& arguments) {
   try {
     io::Configuration read = io::read_configuration(arguments.from, frame_number(arguments.frame));
     // As the state says it that is written.
     if (!read.state.own_bodies.empty())
       read.state.bodies = bodies_of(io::composition_of(read.material, arguments.from));
+    if (read.material.beta.empty() && has_rough_spheres(read)) {
+      read.material.beta = {1};
+      read.notes.emplace_back(
+          "beta is not in the file: 1 is assumed, as its spheres have a moment of inertia");
+    }
     return read;
   } catch (const InputError& error) {
     throw InputError(printable(error.what()));

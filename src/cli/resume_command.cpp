@@ -11,13 +11,14 @@
 #include "src/cli/signals.h"
 #include "src/runs/load_checkpoint.h"
 #include "src/runs/prepared_run.h"
+#include "src/scene/confinement.h"
 
 namespace needlework::cli {
 namespace {
 
 // Other front ends name the end in each call.
-void require_end(const Scene::Until& until, const std::string& file) {
-  if (until.time || until.collisions_per_needle || until.energy_ratio || until.wall_s) return;
+void require_end(const Scene& scene, const std::string& file) {
+  if (has_end(scene)) return;
   throw InputError(file +
                    ": the run has no end: expected --set until.KEY=VALUE with one of time, "
                    "collisions_per_needle, energy_ratio, wall_s");
@@ -30,7 +31,7 @@ int run(const ResumeArguments& arguments) {
   std::optional<SetUp> set_up(arguments.file + " is as it was");
   auto [saved, warning] = runs::load_checkpoint(arguments.file, [&](Scene& scene) {
     override_until(scene, arguments.overrides);
-    require_end(scene.until, arguments.file);
+    require_end(scene, arguments.file);
     apply(arguments.engine, scene);
     set_up->limit(scene.until);
   });

@@ -101,7 +101,7 @@ class SizesOfBodies {
     sizes.diameter = diameter_.spread();
     sizes.mass = mass_.spread();
     sizes.inertia = inertia_.spread();
-    sizes.k = k_of(species.k);
+    sizes.k = spread_of_k(species.k);
     species.length = sizes.length.mean;
     species.diameter = sizes.diameter.mean;
     species.mass = sizes.mass.mean;
@@ -117,7 +117,7 @@ class SizesOfBodies {
     return sum.value() / static_cast<double>(count_);
   }
   // As given, where that of each body is so but for rounding.
-  Spread k_of(double given) const {
+  Spread spread_of_k(double given) const {
     constexpr double rounding = 1e-12;
     const Spread k = k_.spread();
     if (!(k.greatest - k.least <= rounding * k.greatest)) return k;

@@ -20,6 +20,7 @@
 #include "src/scene/derived_numbers.h"
 #include "src/scene/growth_plan.h"
 #include "src/scene/own_bodies.h"
+#include "src/scene/section.h"
 
 namespace needlework {
 namespace {
@@ -342,15 +343,10 @@ std::vector<std::array<double, 3>> velocities_of(const Gas& gas, const State& in
 
 }  // namespace
 
-// Momentum along y would carry needles to where the flow is faster, all the time; but a thermostat,
-// walls that draw velocities and fixed bodies change it.
+// Momentum along y would carry needles to where the flow is faster, all the time.
 void require_steady_flow(const Scene& scene, const Gas& gas, std::string_view what,
                          const std::function<double(Needle)>& velocity_y) {
-  const bool is_kept = !scene.driving.andersen && !gas.composition.has_fixed() &&
-                       std::ranges::none_of(scene.walls, [](const auto& wall) {
-                         return wall.temperature.has_value();
-                       });
-  if (!gas.shear || !is_kept) return;
+  if (!keeps_drift(scene)) return;
   constexpr double most = 0x1p-20;  // beyond what rounding to single precision does
   double sum = 0, size = 0;
   for (Needle i{0}; i < gas.size(); ++i) {

@@ -287,7 +287,7 @@ void add_numbers(py::dict& to, const Sums& sums) {
     if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>) {
       to[number.name] = value;
     } else {
-      to[number.name] = py::array_t<double>(static_cast<py::ssize_t>(value.size()), value.data());
+      to[number.name] = read_only(value.data(), {static_cast<py::ssize_t>(value.size())});
     }
   });
 }

@@ -14,6 +14,7 @@
 #include "src/runs/load_checkpoint.h"
 #include "src/scene/adopt_state.h"
 #include "src/scene/check.h"
+#include "src/scene/confinement.h"
 #include "src/scene/needed_memory.h"
 #include "src/scene/own_bodies.h"
 
@@ -90,7 +91,7 @@ static std::array<double, 3> velocity_of(const State& state, const Scene& scene,
 static std::string warning_of_drift(const LoadedScene& loaded) {
   constexpr double most_share = 0.01;  // of the temperature
   const State& state = *loaded.initial;
-  if (!loaded.scene.shear || state.shear_rate != 0 || state.velocity.empty()) return "";
+  if (!keeps_drift(loaded.scene) || state.shear_rate != 0 || state.velocity.empty()) return "";
   const Members members = members_of(loaded);
   double mass = 0, momentum = 0;
   std::size_t count = 0;
@@ -107,13 +108,17 @@ static std::string warning_of_drift(const LoadedScene& loaded) {
       "{}: says no flow, so its velocities are taken to have that of [shear]: beside it the gas "
       "drifts with {:.4g} along x, which is {:.3g} of T_tr = {:.4g} and stays; if they are "
       "velocities of a gas without a flow, pass them as peculiar_velocity from Python, C or a pipe",
-      place_of(loaded.scene, "initial.file", loaded.scene.initial.file), momentum / mass, of_drift,
-      t_tr);
+      loaded.scene.initial.file.empty()
+          ? "the state"
+          : place_of(loaded.scene, "initial.file", loaded.scene.initial.file),
+      momentum / mass, of_drift, t_tr);
 }
 
 std::string warning_of_state(const LoadedScene& loaded) {
-  if (loaded.scene.initial.file.empty() || !loaded.initial) return "";
-  const std::string unknown = warning_of_unknown_bodies(loaded.scene, loaded.initial->bodies);
+  if (!loaded.initial) return "";
+  const std::string unknown = loaded.scene.initial.file.empty()
+                                  ? ""
+                                  : warning_of_unknown_bodies(loaded.scene, loaded.initial->bodies);
   return joined(unknown, warning_of_drift(loaded));
 }
 

@@ -24,7 +24,7 @@ namespace needlework::runs {
 void require_events(const LoadedScene& loaded, const std::string& path) {
   const Scene& scene = loaded.scene;
   require_rules(scene, Aspect::end);
-  if (scene.until.time) return;
+  if (scene.until.time || scene.driving.growth) return;  // which ends by itself
   const std::string why =
       loaded.initial ? why_no_collision(scene, *loaded.initial) : why_no_collision(scene);
   if (!why.empty()) {

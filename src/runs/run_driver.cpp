@@ -93,8 +93,8 @@ Stop RunDriver::advance(const Scene::Until& until, RunMonitor& monitor) {
       return result_.stop = Stop::wall_time;
     }
     // Steps end at samples, so that the simulation cannot tell.
-    const bool may_never_end = !until.time || !std::isfinite(*until.time);
-    if (may_never_end && !simulation_.why_no_collision().empty()) {
+    const bool has_last_time = (until.time && std::isfinite(*until.time)) || scene_.driving.growth;
+    if (!has_last_time && !simulation_.why_no_collision().empty()) {
       return result_.stop = Stop::nothing_can_happen;
     }
     if (const auto stop = step(until, start)) return result_.stop = *stop;

@@ -94,7 +94,7 @@ double adopted_k(const Scene& scene, const Species& body, std::size_t n, const B
     return k;
   }
   if (body.given_inertia) return by_inertia;
-  return is_k_said || body.diameter == 0 ? body.k : homogeneous_k(body.length, body.diameter);
+  return is_k_said || !(body.diameter > 0) ? body.k : homogeneous_k(body.length, body.diameter);
 }
 
 // Of a rough sphere. What the scene says, or leaves to the default, has all digits. Fixed ones have
@@ -124,6 +124,19 @@ bool adopt_fixed(const Scene& scene, Species& body, std::size_t n, bool expected
   return expected;
 }
 
+// Files of smooth spheres say 0, those of fixed bodies what they like.
+void require_inertia(const Scene& scene, const Species& body, double inertia) {
+  if (body.fixed) return;
+  const char* expected = !(inertia >= 0)                   ? "a number of at least 0"
+                         : std::isinf(inertia)             ? "a finite number"
+                         : inertia == 0 && body.has_axis() ? "a number above 0"
+                                                           : nullptr;
+  if (expected) {
+    throw InputError(fmt::format("{}: inertia = {} of its bodies: expected {}",
+                                 source_of_state(scene), inertia, expected));
+  }
+}
+
 Species completed(const Scene& scene, Species body, std::size_t n, const Bodies& bodies) {
   if (!bodies.names.empty() && !scene.species.empty() && body.name != bodies.names[n]) {
     const auto quoted = [](const std::string& name) { return '"' + printable(name) + '"'; };
@@ -138,6 +151,7 @@ Species completed(const Scene& scene, Species body, std::size_t n, const Bodies&
       require_agreement(scene, key, n, body.*value, expected);
     body.*value = expected;
   }
+  if (n < bodies.inertia.size()) require_inertia(scene, body, bodies.inertia[n]);
   if (body.has_axis()) {
     body.k = adopted_k(scene, body, n, bodies);
     body.given_inertia.reset();
@@ -263,8 +277,9 @@ void adopt_bodies(Scene& scene, const Bodies& bodies) {
                   : all.size() == 1     ? "needles"
                                         : fmt::format("needles {}", n + 1);
   }
-  // The short form has a length and a mass of 1.
-  if (!listed && all.size() == 1 && all[0].length == 1 && all[0].mass == 1) {
+  // The short form has a length and a mass of 1, and moves.
+  const bool is_short = all.size() == 1 && all[0].length == 1 && all[0].mass == 1 && !all[0].fixed;
+  if (!listed && is_short) {
     scene.needles.k = all[0].k;
     scene.needles.diameter = all[0].diameter;
   } else {
@@ -312,6 +327,7 @@ void adopt_state(Scene& scene, State& state) {
   if (state.scale) drop_equal_rows(state);
   if (state.own_bodies.empty()) require_nothing_drawn(scene, state.bodies);
   adopt_bodies(scene, state.bodies);
+  require_ranges(scene, Aspect::bodies);
   require_rules(scene, Aspect::species | Aspect::bodies | Aspect::pairs | Aspect::effects);
   adopt_count_and_box(scene, state);
   adopt_spheres(scene, state);

@@ -125,6 +125,12 @@ bool exchanges_energy(const Scene& scene) {
          scene.driving.andersen || scene.driving.growth || scene.shear;
 }
 
+bool keeps_drift(const Scene& scene) {
+  return scene.shear && scene.shear->rate != 0 && !scene.driving.andersen &&
+         std::ranges::none_of(scene.walls,
+                              [](const Scene::Wall& wall) { return wall.temperature.has_value(); });
+}
+
 bool has_end(const Scene& scene) {
   const Scene::Until& until = scene.until;
   return until.time || until.collisions_per_needle || until.energy_ratio || until.wall_s ||

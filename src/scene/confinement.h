@@ -68,6 +68,10 @@ bool acts_on_single_needles(const Scene& scene);
 /// by driving or by uniform shear.
 bool exchanges_energy(const Scene& scene);
 
+/// Whether there is a uniform flow beside which a drift of all needles stays for ever: neither a
+/// thermostat nor walls that draw velocities change it.
+bool keeps_drift(const Scene& scene);
+
 /// Whether a run comes to an end that the scene sets: one of [until], or that its bodies have
 /// grown.
 bool has_end(const Scene& scene);

@@ -178,9 +178,11 @@ void require_only(const Json& request, std::initializer_list<const char*> fields
     if (name == "do" || name == "id") continue;
     if (std::find(fields.begin(), fields.end(), name) != fields.end()) continue;
     if (std::find(more.begin(), more.end(), name) != more.end()) continue;
-    throw RequestError(fmt::format("{} = {}: expected one of the fields do, id, {}{}{}", name,
-                                   shown(value), fmt::join(fields, ", "), more.empty() ? "" : ", ",
-                                   fmt::join(more, ", ")));
+    std::vector<std::string_view> all = {"do", "id"};
+    all.insert(all.end(), fields.begin(), fields.end());
+    all.insert(all.end(), more.begin(), more.end());
+    throw RequestError(fmt::format("{} = {}: expected one of the fields {}", name, shown(value),
+                                   fmt::join(all, ", ")));
   }
 }
 

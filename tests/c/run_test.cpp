@@ -100,6 +100,16 @@ TEST_F(CRun, EndsAsTheSceneSaysWithoutLimits) {
   const CSimulation endless(cooling);
   EXPECT_EQ(needlework_run_until(endless, nullptr, nullptr), NEEDLEWORK_USAGE);
   EXPECT_EQ(endless.message(), "limits is NULL: expected limits, as the scene has no [until]");
+
+  // No share of the energy at the start, which was none, is ever reached.
+  const CSimulation still(cooling +
+                          "until.energy_ratio = 0.5\ninitial = { t_tr = 0, t_rot = 0 }\n");
+  std::vector<double> moving(3 * needlework_count(still), 0.5);
+  moving[0] = -1;
+  const needlework_const_vectors velocity{moving.data(), 0, 0};
+  ASSERT_EQ(needlework_set_velocities(still, &velocity, nullptr), NEEDLEWORK_OK);
+  EXPECT_EQ(needlework_run_until(still, nullptr, nullptr), NEEDLEWORK_USAGE);
+  EXPECT_TRUE(test::contains(still.message(), "expected another limit, as the gas was at rest"));
 }
 
 TEST_F(CRun, OfNoNeedlesOrOneHasNothingToDo) {

@@ -269,6 +269,10 @@ TEST_F(CheckCommand, WarnsOfADriftThatAStateWithoutAFlowHasInOne) {
   EXPECT_FALSE(contains(run("check on.toml").err, drift));
   EXPECT_TRUE(contains(run("check on.toml --set shear.rate=1").err, drift));
   EXPECT_FALSE(contains(run("check on.toml --set shear.rate=1e-3").err, drift));
+  // It does not stay beside a thermostat.
+  EXPECT_FALSE(contains(
+      run("check on.toml --set shear.rate=1 --set driving.andersen={rate=1,temperature=1}").err,
+      drift));
 }
 
 TEST_F(CheckCommand, SaysWhenAnEndIsOutOfReach) {

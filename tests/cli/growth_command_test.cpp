@@ -43,6 +43,22 @@ TEST_F(GrowthCommand, SaysHowFarItGrows) {
   EXPECT_NEAR(room["driving"]["growth"]["largest"].get<double>(), 6 / 2.01 / 0.9, 1e-9);
 }
 
+TEST_F(GrowthCommand, EndsWithoutAnotherEnd) {
+  const std::string none = " --set until.time=none";
+  EXPECT_TRUE(contains(run("check grow.toml").out, "time = 1000 or the end of growth"));
+  EXPECT_TRUE(contains(run("check grow.toml" + none).out, "ends            the end of growth"));
+  const std::string whole = hash_of("run grow.toml --out whole.h5" + none);
+  EXPECT_NE(hash_of("run grow.toml --out a.h5 --set until.time=2"), whole);
+  EXPECT_EQ(hash_of("resume a.h5" + none), whole);
+  // Nor does it take a collision.
+  write("one.toml",
+        "needles.box = 6\ndriving.growth = { rate = 0.3, until_packing = 0.02 }\n"
+        "[[species]]\nname = 'one'\ncount = 1\nlength = 0\ndiameter = 1\n");
+  const auto alone = json_of("run one.toml --json --quiet");
+  EXPECT_EQ(alone["stop"], "grown");
+  EXPECT_EQ(alone["collisions"], 0);
+}
+
 TEST_F(GrowthCommand, GivesSizesPackingAndPressure) {
   const auto result = json_of("run grow.toml --json --quiet");
   EXPECT_EQ(result["stop"], "grown");

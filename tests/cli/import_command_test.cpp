@@ -62,6 +62,11 @@ TEST_F(ImportCommand, KeepsRoughSpheresThatWereExported) {
     const Scene scene = read_scene(path("a/scene.toml"));
     for (std::size_t n = 0; n < 2; ++n)
       EXPECT_EQ(scene.species.at(n).given_inertia.value_or(0), before.bodies.inertia.at(n));
+    // So that scenes that start from the state have them, too.
+    EXPECT_EQ(state.bodies.inertia, before.bodies.inertia) << name;
+    const bool is_said = name == "run.xyz";
+    EXPECT_EQ(scene.collisions.beta, is_said ? 0.5 : 1);
+    EXPECT_NE(contains(imported.err, "beta is not in the file: 1 is assumed"), is_said);
     const Outcome ran = run("run a/scene.toml" + on + name + ".h5");
     EXPECT_EQ(ran.exit_code, 0) << ran.err;
   }

@@ -431,6 +431,12 @@ TEST(Shear, RefusesAStateWithMomentumAcrossTheFlow) {
   State state = draw_initial_state(scene);
   state.velocity[3][1] += 0.01;
   EXPECT_THROW(Simulation(scene, state), InputError);
+  // Which stays as it is where nothing flows, and which a thermostat ends.
+  Scene still = scene, thermal = scene;
+  still.shear->rate = 0;
+  thermal.driving.andersen = {.rate = 1, .temperature = 1};
+  EXPECT_NO_THROW(Simulation(still, state));
+  EXPECT_NO_THROW(Simulation(thermal, state));
 }
 
 // Rows are of the images in the box, as copy() gives them, however far needles have gone.

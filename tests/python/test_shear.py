@@ -45,6 +45,8 @@ class Shear(unittest.TestCase):
         again = Simulation(scene, **sim.state)
         np.testing.assert_array_equal(again.velocity, sim.velocity)
         self.assertEqual(again.state["flow"], sim.state["flow"])
+        with self.assertRaises(TypeError):
+            sim.state.flow["slide"] = 5.5
         state = {key: sim.state[key] for key in ("position", "orientation", "angular_velocity")}
         beside = Simulation({**scene, "shear": {"rate": 3.0}}, peculiar_velocity=sim.peculiar_velocity,
                             **state)

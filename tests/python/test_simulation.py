@@ -207,7 +207,7 @@ class State(InFolder):
         self.assertFalse(np.array_equal(sim.position, copy))
         velocity = sim.velocity
         kept = velocity.copy()
-        for array in (sim.box, sim.gas.box, sim.state.bodies.length):
+        for array in (sim.box, sim.gas.box, sim.state.bodies.length, sim.totals.momentum, sim.mass):
             with self.assertRaises(ValueError):
                 array[0] = 3
         del sim

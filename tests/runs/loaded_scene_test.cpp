@@ -6,6 +6,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "needlework/error.h"
 #include "needlework/h5md.h"
@@ -104,6 +105,20 @@ TEST(LoadedScene, WarnsOfAFileThatDoesNotSayItsBodies) {
   // What was assumed may be said otherwise.
   const Scene other = complete_scene(parse_scene(text + "needles.k = 2", "s.toml")).scene;
   EXPECT_EQ(other.composition()[0].k, 2);
+}
+
+TEST(LoadedScene, WarnsOfAStateThatDriftsInAFlow) {
+  Scene scene = test::scene_of(50, 5);
+  const State state = draw_initial_state(scene);  // velocities of a gas that does not flow
+  EXPECT_EQ(warning_of_state(complete_scene(scene, state)), "");
+  scene.shear.emplace().rate = 1;
+  EXPECT_TRUE(test::contains(warning_of_state(complete_scene(scene, state)),
+                             "the state: says no flow, so its velocities are taken to have"));
+  State beside = state;
+  beside.peculiar_velocity = std::exchange(beside.velocity, {});
+  EXPECT_EQ(warning_of_state(complete_scene(scene, beside)), "");
+  scene.shear->rate = 0;
+  EXPECT_EQ(warning_of_state(complete_scene(scene, state)), "");
 }
 
 TEST(LoadedScene, HasAnEngineThatIsOnOffer) {

@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "needlework/error.h"
 #include "needlework/parse.h"
@@ -57,6 +61,37 @@ TEST(AdoptedState, KeepsTheShortFormOfNeedlesOfLengthAndMassOne) {
   EXPECT_TRUE(scene.species.empty());
   EXPECT_EQ(scene.needles.diameter, 0.25);
   EXPECT_EQ(scene.needles.k, 3);
+}
+
+TEST(AdoptedState, SaysThatItsBodiesAreFixed) {
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const double diameter : {0.0, 0.25}) {
+    const Bodies bodies{.length = {1}, .diameter = {diameter}, .mass = {infinite}, .k = {6}};
+    EXPECT_TRUE(test::contains(refusal_of_state("", bodies),
+                               "species.fixed = true: expected another species, which moves"));
+  }
+}
+
+TEST(AdoptedState, HasSizesAndMomentsOfInertiaThatBodiesCanHave) {
+  const auto refusal_of = [](std::vector<double> diameter, double inertia) {
+    const std::vector<double> length = {diameter.empty() ? 1.0 : 0.0};
+    return refusal_of_state(
+        "collisions.beta = 0.5",
+        {.length = length, .diameter = std::move(diameter), .mass = {1}, .inertia = {inertia}});
+  };
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const std::vector<double>& diameter : {std::vector<double>{}, {1.0}}) {
+    for (const auto& [inertia, text] : {std::pair(-5.0, "-5 of its bodies: expected a number of"),
+                                        {std::nan(""), "nan of its bodies: expected a number of"},
+                                        {infinite, "inf of its bodies: expected a finite number"}})
+      EXPECT_TRUE(test::contains(refusal_of(diameter, inertia), text)) << inertia;
+  }
+  EXPECT_TRUE(test::contains(refusal_of({}, 0), "0 of its bodies: expected a number above 0"));
+  EXPECT_EQ(refusal_of({}, 0.05), "no error");
+  EXPECT_EQ(refusal_of({1}, 0.05), "no error");
+  EXPECT_EQ(refusal_of({1}, 0), "no error") << "a smooth sphere does not say one";
+  EXPECT_TRUE(test::contains(refusal_of_state("needles.box = 9", {.diameter = {-1}}),
+                             "needles.diameter = -1: expected "));
 }
 
 TEST(AdoptedState, SaysNamesAndCountsOfSpecies) {

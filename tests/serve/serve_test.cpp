@@ -546,6 +546,7 @@ TEST(Serve, HasAVersionAndCapabilities) {
     EXPECT_NE(std::find(all.begin(), all.end(), name), all.end()) << name;
   }
   EXPECT_EQ(answers[1]["code"], 2);
+  EXPECT_EQ(answers[1]["message"], "simulation = 1: expected one of the fields do, id");
 }
 
 TEST(Serve, WritesStatesAndOutput) {
