@@ -86,9 +86,15 @@ bool is_at(const Simulation& simulation, double time, std::uint64_t collisions) 
   return simulation.time() == time && simulation.collisions() == collisions;
 }
 
-constexpr const char* nothing_to_do =
-    "the end of the run is met already: nothing to do; --set until.KEY=VALUE sets another end, "
-    "--set until.KEY=none removes one";
+// What to do where the end of a run is met already.
+std::string nothing_to_do(Stop end) {
+  const bool is_set =
+      end == Stop::time || end == Stop::collisions || end == Stop::energy || end == Stop::wall_time;
+  return fmt::format("the end of the run is met already: nothing to do; {}",
+                     is_set ? "--set until.KEY=VALUE sets another end, --set until.KEY=none "
+                              "removes one"
+                            : "a new scene with initial.file goes on from its last state");
+}
 
 }  // namespace
 
@@ -154,8 +160,8 @@ int drive(runs::PreparedRun& prepared, SignalGuard& signals, const Printing& pri
     print_warning(why);
     log.warning(why);
   } else if (ending.exit_code == ok && time > 0 && is_at(prepared.simulation(), time, collisions)) {
-    print_warning(nothing_to_do);
-    log.warning(nothing_to_do);
+    print_warning(nothing_to_do(result.stop));
+    log.warning(nothing_to_do(result.stop));
   }
   log.end(prepared, result, ending.exit_code, ending.message);
   return ending.exit_code;

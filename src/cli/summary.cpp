@@ -435,7 +435,7 @@ std::string summary_of(const Report& report) {
     text += line("contacts", "{}", numbers_text(*contacts));
   }
   if (const auto growth = report.simulation.growth())
-    text += line("growth", "{}", numbers_text(*growth));
+    text += line("growth", "{}, as P V / (N T)", numbers_text(*growth));
   if (const auto stress = report.simulation.stress()) text += stress_lines(*stress);
   text += rod_line(report);
   text += wall_lines(report);

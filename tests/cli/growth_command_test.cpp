@@ -50,6 +50,7 @@ TEST_F(GrowthCommand, EndsWithoutAnotherEnd) {
   const std::string whole = hash_of("run grow.toml --out whole.h5" + none);
   EXPECT_NE(hash_of("run grow.toml --out a.h5 --set until.time=2"), whole);
   EXPECT_EQ(hash_of("resume a.h5" + none), whole);
+  EXPECT_TRUE(contains(run("resume a.h5").err, "nothing to do; a new scene with initial.file"));
   // Nor does it take a collision.
   write("one.toml",
         "needles.box = 6\ndriving.growth = { rate = 0.3, until_packing = 0.02 }\n"
@@ -76,6 +77,7 @@ TEST_F(GrowthCommand, GivesSizesPackingAndPressure) {
   EXPECT_TRUE(contains(text, "grew to its packing fraction"));
   EXPECT_TRUE(contains(text, "growth"));
   EXPECT_TRUE(contains(text, "packing fraction 0.3"));
+  EXPECT_TRUE(contains(text, ", as P V / (N T)\n"));
   EXPECT_TRUE(contains(run("info g.h5").out, "Sizes of all bodies in those of the start"));
 }
 
