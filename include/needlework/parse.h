@@ -41,7 +41,8 @@ Scene parse_scene(std::string_view text, std::string_view name,
                   std::span<const std::string> overrides = {}, Provided provided = {});
 
 /// Parses the text of a scene as a file of a run holds it, Scene::text: overrides are the comments
-/// at its end, and [until] may be missing. Throws InputError.
+/// at its end, and [until] may be missing, as may box and counts, which a state of the caller says.
+/// Throws InputError.
 Scene parse_recorded_scene(const std::string& text, std::string_view name);
 
 /// Replaces conditions of [until] in a scene that has been read, by overrides "until.key=value",

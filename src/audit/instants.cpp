@@ -44,19 +44,26 @@ void Audit::add_kick(const State& after, double time) {
 }
 
 void Audit::check_kick(const Instant& now, const std::vector<Needle>& after) {
+  // Fixed bodies are not kicked, and take up the momentum that others get.
+  const auto is_fixed = [&](Index i) { return std::isinf(needles_[i].body.mass); };
   Kicks::Change of_all{};
+  bool any_fixed = false;
   Quad mass = 0;
   double largest = 0;
   std::vector<Kicks::Change> changes;
   for (Index i = 0; i < needles_.size(); ++i) {
-    const Kicks::Change& change = changes.emplace_back(kicks_->of(ids_[i], findings_.kicks));
+    const Kicks::Change& change =
+        changes.emplace_back(is_fixed(i) ? Kicks::Change{} : kicks_->of(ids_[i], findings_.kicks));
     const Quad its_mass = needles_[i].body.moving_mass();
     of_all.v = of_all.v + change.v * its_mass;
     of_all.v_off += change.v_off * needles_[i].body.moving_mass();
     mass += its_mass;
+    any_fixed |= is_fixed(i);
     largest = std::max(largest, magnitude(norm(change.v)));
   }
-  if (mass > 0) {
+  if (any_fixed) {
+    of_all = {};
+  } else if (mass > 0) {
     of_all.v = of_all.v * Quad(1 / mass);
     of_all.v_off /= magnitude(mass);
   }

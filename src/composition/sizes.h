@@ -105,7 +105,8 @@ class SizesOfBodies {
     species.length = sizes.length.mean;
     species.diameter = sizes.diameter.mean;
     species.mass = sizes.mass.mean;
-    species.set_inertia(sizes.inertia.mean);
+    // That of fixed bodies, which moves nothing, is by the k or q of the species.
+    if (!species.fixed) species.set_inertia(sizes.inertia.mean);
     species.given_inertia.reset();
     species.sizes = sizes;
     return species;

@@ -132,9 +132,19 @@ void require_insertable(const Scene& scene) {
       spheres ? "them" : "the rods"));
 }
 
+// With a second wall along each axis that has one, as nothing holds the gas to the first without
+// gravity.
+Scene closed(Scene scene) {
+  const std::array<Gap, 3> gaps = gaps_of(scene);
+  for (const Scene::WallSide& side : scene.wall_sides()) {
+    if (gaps[side.axis].is_open()) scene.walls[side.entry].side = "both";
+  }
+  return scene;
+}
+
 // Elastic collisions of rods, with nothing else that a scene may call for.
 Scene elastic(const Scene& scene, const State& state) {
-  Scene out = scene;
+  Scene out = closed(scene);
   out.initial = {};
   out.collisions = {};
   std::erase_if(out.pairs, [](const Scene::Pair& pair) { return pair.meet; });
@@ -142,7 +152,6 @@ Scene elastic(const Scene& scene, const State& state) {
   out.driving = {};
   out.output = {};
   if (out.shear) out.shear->rate = 0;  // a box that is tilted as the scene's is at its start
-  const std::array<Gap, 3> gaps = gaps_of(scene);
   for (Scene::Wall& wall : out.walls) {
     wall.epsilon = 1;
     wall.temperature.reset();
@@ -151,10 +160,6 @@ Scene elastic(const Scene& scene, const State& state) {
     const bool shakes = wall.motion->amplitude > 0;
     if (shakes) wall.motion->frequency = 1e-100;
     if (!shakes) wall.motion.reset();
-  }
-  // Without gravity, an open side has a wall, too.
-  for (const Scene::WallSide& side : scene.wall_sides()) {
-    if (gaps[side.axis].is_open()) out.walls[side.entry].side = "both";
   }
   for (Species& each : out.species) each.t_tr = each.t_rot = 1;
   // Which parts find the trajectory changes no bit of it, and those of the scene may be slow.
@@ -285,7 +290,7 @@ DrawnState grown(const Scene& scene) {
   // Collisions of each after it has grown, in which it forgets how.
   constexpr double collisions_to_forget = 20;
   const double share = share_at_start(scene);
-  Insertion rods = insert_rods(scene, most_tries, static_cast<double>(most_tries), share);
+  Insertion rods = insert_rods(closed(scene), most_tries, static_cast<double>(most_tries), share);
   if (rods.placed < rods.state.size()) {
     throw InputError(
         fmt::format("{}: a body of {:.4g} of its size found no place in {} tries: "

@@ -152,7 +152,6 @@ void let_grow(Gas& gas, const Scene& scene, const GrowthPlan& plan) {
     squares += gas.body(i).mass * dot(v, v);
     diameters += 2 * gas.radius(i);
   }
-  if (gas.size() == 0) return;
   const double speed = std::sqrt(squares / (3 * gas.mass()));
   if (!(speed > 0)) {
     throw InputError(fmt::format(

@@ -462,15 +462,15 @@ ReplacedRecords Run::kick() {
       changes[i] = kicks->change(gas.ids[i], number, gas.body(i), gas.present(i, now).u);
     }
   });
-  // Fixed bodies take up any momentum, so that the sum is not kept.
-  const bool has_fixed = gas.composition.has_fixed();
+  // Fixed bodies take up any momentum, so that the sum is not kept; nor is that of no bodies.
+  const bool is_kept = !gas.composition.has_fixed() && gas.size() > 0;
   const auto [x, y, z] = exact_sums(gas.records, team.threads(), [&](const Record& record) {
     const Needle i(static_cast<std::size_t>(&record - gas.records.data()));
-    if (has_fixed) return std::array{0.0, 0.0, 0.0};
+    if (!is_kept) return std::array{0.0, 0.0, 0.0};
     const Vec3d momentum = changes[i].velocity * gas.body(i).mass;
     return std::array{momentum.x, momentum.y, momentum.z};
   });
-  const Vec3d of_all = Vec3d{x, y, z} * (1 / gas.mass());
+  const Vec3d of_all = is_kept ? Vec3d{x, y, z} * (1 / gas.mass()) : Vec3d{};
   find_next_instant();
   ReplacedRecords replaced = replace_velocities(
       [&](Needle i) { return gas.present(i, now).v + (changes[i].velocity - of_all); },

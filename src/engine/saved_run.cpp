@@ -65,13 +65,18 @@ void require_body(const BodyNumbers& body, const Species& species) {
     require_near(body.inertia, species.inertia());
     return;
   }
+  // Sizes that grow do so one by one, each with its own rounding.
+  constexpr double rounding = 1e-12;
+  const auto require_within = [](double value, double least, double greatest) {
+    require(value >= least * (1 - rounding) && value <= greatest * (1 + rounding));
+  };
   const Sizes& sizes = *species.sizes;
-  const double extent = body.length + body.diameter;
-  require(extent >= sizes.least_extent && extent <= sizes.greatest_extent);
-  require(body.length >= 0 && body.length <= sizes.length.greatest);
-  require(body.diameter >= sizes.diameter.least && body.diameter <= sizes.diameter.greatest);
-  require(body.mass >= sizes.mass.least && std::isfinite(body.mass));
-  require(body.inertia >= sizes.inertia.least && std::isfinite(body.inertia));
+  constexpr double largest = std::numeric_limits<double>::max() / 2;
+  require_within(body.length + body.diameter, sizes.least_extent, sizes.greatest_extent);
+  require_within(body.length, 0, sizes.length.greatest);
+  require_within(body.diameter, sizes.diameter.least, sizes.diameter.greatest);
+  require_within(body.mass, sizes.mass.least, largest);
+  require_within(body.inertia, sizes.inertia.least, largest);
 }
 
 // The parameters on which the trajectory depends.
@@ -324,7 +329,8 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
   if (sliding) archive(tally.sliding);
   if (kicks) {
     archive(kicks_done);
-    require(kicks_done < std::uint64_t{1} << 53 && now <= next_instant());
+    // A gas of no needles is not kicked.
+    require(kicks_done < std::uint64_t{1} << 53 && (gas.size() == 0 || now <= next_instant()));
   }
   if (effects.growth) transfer_growth(archive);
   if (gas.moving_edges) {

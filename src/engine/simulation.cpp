@@ -511,7 +511,7 @@ double Simulation::initial_energy() const {
   const Access self = access();
   const Run& run = self->run;
   return (run.initial_energy - energy_of_low_edges(run.gas)) /
-         static_cast<double>(run.gas.moving());
+         static_cast<double>(std::max<std::size_t>(run.gas.moving(), 1));
 }
 double Simulation::energy_drift() const { return access()->run.energy_drift(); }
 double Simulation::epoch_length() const { return implementation_->run.gas.clock.epoch_length(); }

@@ -166,7 +166,9 @@ std::optional<Scene> recorded_scene(const std::string& text, const std::string& 
                                     const Bodies& bodies, const std::vector<double>& counts) {
   try {
     Scene scene = parse_recorded_scene(text, name);
-    if (scene.initial.file.empty()) return scene;
+    const bool is_drawn = scene.initial.file.empty() && scene.composition().count() > 0 &&
+                          scene.needles.box != std::array<double, 3>{};
+    if (is_drawn) return scene;
     adopt_bodies(scene, bodies);
     for (std::size_t n = 0; n < scene.species.size() && n < counts.size(); ++n)
       scene.species[n].count = static_cast<std::uint64_t>(counts[n]);

@@ -98,7 +98,7 @@ bool Room::holds(const std::array<double, 3>& box) const {
 std::string Room::expected_instead_of(const std::array<double, 3>& box) const {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const Gap& gap = gaps_[axis];
-    if (box[axis] >= least_[axis]) continue;
+    if (holds(box[axis], axis) || box[axis] > most_) continue;
     if (!gap.is_walled()) {
       const bool all = std::ranges::none_of(gaps_, &Gap::is_walled);
       return fmt::format("edges of at least {:.10g}{} ({:.10g} {} lengths)", least_[axis],

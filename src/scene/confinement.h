@@ -48,7 +48,10 @@ class Room {
 
   double least(std::size_t axis) const { return least_[axis]; }  ///< [L]
   double most() const { return most_; }                          ///< [L]
-  bool holds(double edge, std::size_t axis) const { return edge >= least_[axis] && edge <= most_; }
+  /// But for the rounding of bodies that have grown until they were as long.
+  bool holds(double edge, std::size_t axis) const {
+    return edge >= least_[axis] * (1 - 1e-14) && edge <= most_;
+  }
   bool holds(const std::array<double, 3>& box) const;
   /// What messages expect of a box that is none of these.
   std::string expected_instead_of(const std::array<double, 3>& box) const;

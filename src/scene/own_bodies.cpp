@@ -367,7 +367,12 @@ Species completed(const Species& species, std::uint64_t seed, std::uint64_t firs
     out.given_inertia.reset();
     return out;
   }
-  if (species.count == 0) return species;
+  if (species.count == 0) {
+    // Without a body whose number this would be, it has the size that one would have.
+    Species out = species;
+    if (!out.has_axis() && out.diameter == 0) out.diameter = maker.body(first).diameter;
+    return out;
+  }
   return remembered(species, seed, first, [&] {
     SizesOfBodies sizes;
     for (std::uint64_t n = 0; n < species.count; ++n) {
@@ -432,6 +437,13 @@ OwnBodies columns_of(const std::vector<BodyNumbers>& bodies) {
   return out;
 }
 
+// Gives a scene in the short form the one species that it has, with the name of that of files.
+static void make_explicit(Scene& scene, const Composition& composition) {
+  if (!scene.species.empty()) return;
+  scene.species = composition.species();
+  if (scene.species[0].name.empty()) scene.species[0].name = "needles";
+}
+
 void adopt_spheres(Scene& scene, const State& state) {
   const std::vector<double>& length = state.own_bodies.length;
   if (length.size() != state.size() || std::ranges::count(length, 0) == 0) return;
@@ -443,7 +455,7 @@ void adopt_spheres(Scene& scene, const State& state) {
     const std::size_t its = composition.size() > 1 ? species[row] : 0;
     if (its < are_spheres.size() && length[row] == 0) are_spheres[its] = true;
   }
-  if (scene.species.empty()) scene.species = composition.species();
+  make_explicit(scene, composition);
   for (std::size_t n = 0; n < are_spheres.size(); ++n)
     if (are_spheres[n]) scene.species[n].length = 0;
 }
@@ -466,7 +478,7 @@ void adopt_own_bodies(Scene& scene, const State& state) {
   std::vector<SizesOfBodies> sizes(composition.size());
   for (const std::size_t row : rows_by_id(state))
     sizes[composition.size() > 1 ? species[row] : 0].add(bodies[row]);
-  if (scene.species.empty()) scene.species = composition.species();
+  make_explicit(scene, composition);
   for (std::size_t n = 0; n < sizes.size(); ++n) {
     if (sizes[n].count() > 0) scene.species[n] = sizes[n].complete(scene.species[n]);
   }

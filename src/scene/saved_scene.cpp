@@ -34,6 +34,9 @@ void transfer(Archive& archive, Scene::Species& species) {
   visit_species(species,
                 [&](std::string_view, std::string_view, auto& member) { archive(member); });
   archive(species.sizes);
+  // By which spheres are rough, and which no key says.
+  if (archive.reads() && species.sizes && !species.has_axis() && !species.fixed)
+    species.set_inertia(species.sizes->inertia.mean);
 }
 
 void transfer(Archive& archive, Scene::Pair& pair) {

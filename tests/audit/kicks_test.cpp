@@ -60,6 +60,17 @@ TEST(AuditOfKicks, FindsNothingWrongWithRoughSpheres) {
   EXPECT_GT(findings.contacts, 30u / audit_share);
 }
 
+// Which take up the momentum that kicks give.
+TEST(AuditOfKicks, FindsNothingWrongBesideFixedBodies) {
+  Scene scene = kicked(0.2);
+  scene.needles.count = 0;
+  scene.species = {{.name = "moving", .count = 40},
+                   {.name = "still", .count = 10, .length = 0, .diameter = 0.4, .fixed = true}};
+  const Findings findings = audited(scene, 2.0 / audit_share);
+  expect_clean(findings, name_of(scene));
+  EXPECT_EQ(findings.kicks, static_cast<std::uint64_t>(2.0 / audit_share / 0.2));
+}
+
 // Of points next to the circle, whose logarithm is that of a number which rounding has moved by
 // more than its own digits: 4e-7 and 3e-9 inside it.
 TEST(AuditOfKicks, KnowsHowFarRoundingMovesNumbersNextToTheCircle) {

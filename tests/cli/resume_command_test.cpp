@@ -237,6 +237,56 @@ TEST_F(ResumeCommand, ContinuesToAnEarlierEndWhereTooManyBoxesAreCrossed) {
   EXPECT_EQ(json_of("resume far.h5 --quiet --json --set until.time=1.5e9")["time"], 1.5e9);
 }
 
+// Whose numbers follow from those of the file, and are saved once more.
+TEST_F(ResumeCommand, GoesOnFromBodiesOfAFile) {
+  const std::string head = "needles = { box = 6, seed = 2 }\nuntil.time = 0.5\n";
+  const std::string species = "[[species]]\nname = 'a'\ncount = 12\n", spheres = "length = 0\n";
+  const std::string drawn = " = { distribution = 'uniform', mean = 0.5, width = 0.2 }\n";
+  const std::string piston =
+      "walls = [{ axis = 'x', side = 'high', motion = { velocity = -0.1, stop_at = 5.96 } },\n"
+      "{ axis = 'x', side = 'low' }]\n";
+  struct Case {
+    std::string effects, bodies;
+  };
+  for (const auto& [effects, bodies] :
+       {Case{"", species + "k" + drawn}, Case{"", species + "diameter" + drawn},
+        Case{"collisions.beta = 0.5\n", species + spheres + "diameter" + drawn},
+        Case{"", species + "[[species]]\nname = 'f'\ncount = 9\nfixed = true\nlength" + drawn},
+        Case{"collisions.beta = 0.5\n", species + spheres + "diameter = 1\n" +
+                                            "[[species]]\nname = 'f'\ncount = 9\nfixed = true\n" +
+                                            "overlap = true\nlength = 0\ndiameter" + drawn},
+        Case{"driving.growth = { rate = 0.1, until_packing = 0.3 }\n",
+             species + "diameter = 0.1\nlength" + drawn},
+        Case{piston, species}}) {
+    SCOPED_TRACE(effects + bodies);
+    write("first.toml", head + effects + bodies);
+    ASSERT_EQ(run("run first.toml --force --quiet --out first.h5").exit_code, 0);
+    const Outcome next = run("resume first.h5 --quiet --set until.time=0.6");
+    EXPECT_EQ(next.exit_code, 0) << next.err;
+    write("next.toml", "initial.file = 'first.h5'\nuntil.time = 1\n" + effects);
+    const std::string whole = hash_of("run next.toml --force --out whole.h5");
+    hash_of("run next.toml --force --out half.h5 --set until.time=0.5");
+    EXPECT_EQ(hash_of("resume half.h5 --set until.time=1"), whole);
+  }
+}
+
+TEST_F(ResumeCommand, GoesOnWithoutBodiesThatMove) {
+  const std::string head = "needles.box = 6\nuntil.time = 0.5\n[[species]]\nname = 'a'\ncount = ";
+  write("kicked.toml", head + "0\n[driving.kicks]\nevery = 0.1\ntranslational = 1\n");
+  write("still.toml", head + "0\n[[species]]\nname = 'f'\ncount = 2\nfixed = true\n");
+  write("drawn.toml", head +
+                          "2\n[[species]]\nname = 'b'\ncount = 0\nlength = 0\n"
+                          "diameter = { distribution = 'uniform', mean = 1, width = 0.1 }\n");
+  for (const std::string name : {"kicked", "still", "drawn"}) {
+    const Outcome first = run("run " + name + ".toml --quiet --out " + name + ".h5");
+    EXPECT_EQ(first.exit_code, 0) << first.err;
+    const Outcome next = run("resume " + name + ".h5 --quiet --set until.time=1");
+    EXPECT_EQ(next.exit_code, 0) << next.err;
+  }
+  write("grown.toml", head + "0\nlength = 0\ndiameter = 1\n[driving.growth]\nrate = 0.1\n");
+  EXPECT_TRUE(run("run grown.toml").fails(3, "driving.growth.rate = 0.1: expected bodies that"));
+}
+
 // Its flight has been one since the start: searching it again took memory without limit.
 TEST_F(ResumeCommand, OfOneNeedleTakesNoMoreMemoryThanItsRun) {
   write("one.toml", "needles = {count = 1, box = 3}\nuntil.time = 1e6\n");

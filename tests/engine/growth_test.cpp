@@ -231,6 +231,11 @@ TEST(Growth, EndsWhereItIsToldOrHasNoRoom) {
   Simulation narrow(scene);
   EXPECT_EQ(narrow.advance(until_time(1e3)), Stop::no_room);
   EXPECT_NEAR(narrow.growth()->scale, 2.1 / 2.01, 1e-12);
+  // What they have grown to fits.
+  Scene still = scene;
+  still.driving = {};
+  still.species[0].diameter *= narrow.growth()->scale;
+  EXPECT_NO_THROW(Simulation(still, narrow.copy()));
   // A pressure.
   scene = growing(rods_of(50, 0, 0.3), 0.1, 0.74);
   scene.driving.growth->cool_every.reset();
@@ -312,6 +317,17 @@ TEST(Compress, FillsSpaceWhereNothingElseDoes) {
   scene.initial.packing = "auto";
   EXPECT_EQ(plan_placement(scene).way, PlannedPlacement::Way::grown);
   EXPECT_EQ(draw_initial_state(scene).position, state.position);
+}
+
+// Below an open side, too, where gravity holds them.
+TEST(Compress, StaysInsideTheBox) {
+  for (const char* side : {"low", "high"}) {
+    Scene scene = rods_of(40, 0, 0.3);
+    scene.forces.gravity = {0, 0, side[0] == 'l' ? -1.0 : 1.0};
+    scene.walls = {wall("z", side)};
+    scene.initial.packing = "compress";
+    EXPECT_NO_THROW(require_simulable(scene, draw_initial_state(scene)));
+  }
 }
 
 TEST(Compress, IsOfBodiesThatTakeUpRoomAndMove) {

@@ -230,6 +230,26 @@ pairs = [{ between = ["balls", "balls"], beta = )" +
   }
 }
 
+// What their state said is missing from their scenes.
+TEST_F(Report, ShowsTheScenesOfRunsFromAStateOfTheCaller) {
+  for (const char* bodies : {"", "species = [{ name = \"a\" }]\n"}) {
+    Scene scene = parse_scene(std::string("collisions.epsilon = 0.75\nshear.rate = 2\n") + bodies,
+                              "scene", {}, {.state = true, .end = true});
+    scene.needles.box = {4, 5, 6};
+    scene.needles.count = 3;
+    if (!scene.species.empty()) scene.species[0].count = 3;
+    io::Writer writer(path("run.h5"), true, scene, {"scalar", 1, 1.0});
+    State in_flow = state(3, 0);
+    in_flow.peculiar_velocity = in_flow.velocity;
+    writer.write_frame(totals(0), in_flow);
+    writer.close();
+    const json facts = page_of({"run.h5"}).json["sections"][0]["scene"];
+    ASSERT_TRUE(facts.is_object());
+    EXPECT_EQ(facts["epsilon"], 0.75);
+    EXPECT_EQ(facts["shear_rate"], 2);
+  }
+}
+
 TEST_F(Report, ShowsWallsWhereTheyAreAndNeedlesBeyondOpenSides) {
   write_run("run.h5", "walls", 3, 2,
             "forces.gravity = [1, 0, -2]\n"

@@ -292,11 +292,11 @@ TEST(BadWalls, StopBehindWhereTheyStart) {
                         {"low", -0.5, -2, ""},
                         {"high", -0.5, 9, ""},
                         {"high", 0.5, 13, ""},
-                        {"low", 0.5, -2, "above 0, from which the wall moves up"},
-                        {"low", -0.5, 2, "below 0, from which the wall moves down"},
-                        {"low", 0.5, 0, "above 0, from which the wall moves up"},
-                        {"high", -0.5, 13, "below 12, from which the wall moves down"},
-                        {"high", 0.5, 12, "above 12, from which the wall moves up"}}) {
+                        {"low", 0.5, 0, ""},  // where one that goes on from a file has come to rest
+                        {"low", 0.5, -2, "at or above 0, from which the wall moves up"},
+                        {"low", -0.5, 2, "at or below 0, from which the wall moves down"},
+                        {"high", -0.5, 13, "at or below 12, from which the wall moves down"},
+                        {"high", 0.5, 11, "at or above 12, from which the wall moves up"}}) {
     const std::string moving = wall("z", c.side,
                                     "motion = { velocity = " + std::to_string(c.velocity) +
                                         ", stop_at = " + std::to_string(c.stop) + " }\n");

@@ -109,10 +109,10 @@ std::optional<Violation> piston_stops_behind(const Scene& scene) {
     const auto& motion = scene.walls[side.entry].motion;
     if (!motion || !motion->velocity || !motion->stop_at) continue;
     const double start = side.is_high ? scene.needles.box[side.axis] : 0;
-    if ((*motion->stop_at - start) / *motion->velocity > 0) continue;
+    if ((*motion->stop_at - start) / *motion->velocity >= 0) continue;
     return Violation{.key = key_of_entry("walls.motion.stop_at", side.entry),
                      .value = fmt::to_string(*motion->stop_at),
-                     .reason = fmt::format("expected a place {} {}, from which the wall moves {}",
+                     .reason = fmt::format("expected a place at or {} {}, from which the wall moves {}",
                                            *motion->velocity > 0 ? "above" : "below", start,
                                            *motion->velocity > 0 ? "up" : "down")};
   }
