@@ -131,10 +131,10 @@ TEST(NeedleValues, OfShearedGasesAreThoseOfPeculiarVelocitiesWhicheverImageIsSto
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> share(0, 1), component(-1, 1);
   std::uniform_int_distribution<int> boxes(-1, 1);
-  constexpr double rate = 3, slide = 1.7;
+  constexpr double rate = 3, slide = 9.5;
   constexpr std::size_t count = 300;
   State state = needles_at(4, std::vector<std::array<double, 3>>(count));
-  state.box = {4, 6, 8};
+  state.box = {24, 6, 4};  // cells that have slid past more than their neighbours
   state.slide = slide;
   state.shear_rate = rate;
   std::vector<std::array<double, 3>> peculiar(count);
@@ -150,9 +150,9 @@ TEST(NeedleValues, OfShearedGasesAreThoseOfPeculiarVelocitiesWhicheverImageIsSto
     state.velocity[i][0] += rate * state.position[i][1];
     const int x = boxes(random), y = boxes(random), z = boxes(random);
     images.position[i] = state.position[i];
-    images.position[i][0] += 4 * x + slide * y;
+    images.position[i][0] += 24 * x + slide * y;
     images.position[i][1] += 6 * y;
-    images.position[i][2] += 8 * z;
+    images.position[i][2] += 4 * z;
     images.velocity[i] = state.velocity[i];
     images.velocity[i][0] += rate * 6 * y;
   }
@@ -172,7 +172,7 @@ TEST(NeedleValues, OfShearedGasesAreThoseOfPeculiarVelocitiesWhicheverImageIsSto
   EXPECT_NEAR(values("vx", state)[5] / peculiar[5][0], values("vx", state)[6] / peculiar[6][0],
               1e-9);
 
-  const double radius = std::cbrt(30 * 4 * 6 * 8 / (299 * 4 * std::numbers::pi / 3));
+  constexpr double radius = 2;  // the largest that fits into the box
   const std::vector<double> flow = values("flow-x", state);
   for (std::size_t i = 0; i < count; ++i) {
     double sum = 0, near = 0;
@@ -181,8 +181,8 @@ TEST(NeedleValues, OfShearedGasesAreThoseOfPeculiarVelocitiesWhicheverImageIsSto
       for (std::size_t axis = 0; axis < 3; ++axis)
         apart[axis] = state.position[i][axis] - state.position[j][axis];
       const double rows = std::nearbyint(apart[1] / 6);
-      const double distance = std::hypot(std::remainder(apart[0] - slide * rows, 4.0),
-                                         apart[1] - 6 * rows, std::remainder(apart[2], 8.0));
+      const double distance = std::hypot(std::remainder(apart[0] - slide * rows, 24.0),
+                                         apart[1] - 6 * rows, std::remainder(apart[2], 4.0));
       if (distance >= radius) continue;
       sum += peculiar[j][0];
       ++near;
