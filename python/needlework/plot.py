@@ -70,12 +70,16 @@ def temperature_ratio(source: Source, gas: Values | None = None,
 def needles(state: Any, axes: Axes | None = None, *, length: float | None = None,
             most: int = 5000) -> Axes:
     """Needles as lines in three dimensions and spheres as discs about as large as they are,
-    coloured by speed.
+    coloured by speed, in a sheared gas beside the flow.
 
     ``state`` is a Simulation or a frame; ``length`` that of all needles, each as long as it is
     unless that is given; ``most`` is how many needles are drawn, those with the lowest ids, because
     Matplotlib is slow with many.
     """
+    needed = ["position", "orientation", "velocity", "box", "low"]
+    if not all(hasattr(state, name) for name in needed + (["length"] if length is None else [])):
+        raise InputError(f"state: {type(state).__name__}: expected a Simulation or a frame, such as "
+                         "recording.frames[-1]")
     import matplotlib.pyplot as plt
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
@@ -86,7 +90,7 @@ def needles(state: Any, axes: Axes | None = None, *, length: float | None = None
     centre = state.position[:most]
     own = own[:len(centre)]
     half = 0.5 * own[:, None] * state.orientation[:most]
-    speed = np.linalg.norm(state.velocity[:most], axis=1)
+    speed = np.linalg.norm(_beside_flow(state)[:most], axis=1)
     colours = {"cmap": "plasma", "norm": Normalize(np.min(speed, initial=np.inf),
                                                    np.max(speed, initial=0.0))}
     spheres = own == 0
@@ -105,6 +109,17 @@ def needles(state: Any, axes: Axes | None = None, *, length: float | None = None
     axes.set_box_aspect(tuple(state.box))
     axes.figure.colorbar(ScalarMappable(**colours), ax=axes, shrink=0.6, label="speed")
     return axes
+
+
+def _beside_flow(state: Any) -> np.ndarray:
+    """Velocities that are the same for all images, also in a uniform flow."""
+    if hasattr(state, "peculiar_velocity"):
+        return state.peculiar_velocity
+    flow = getattr(getattr(state, "state", state), "flow", None)
+    velocity = np.array(state.velocity)
+    if flow is not None:
+        velocity[:, 0] -= flow["shear_rate"] * state.position[:, 1]
+    return velocity
 
 
 def _series_and_gas(source: Source, gas: Values | None) -> tuple[Series, Values, Values | None]:
@@ -140,6 +155,8 @@ def _draw(axes: Axes, series: Series, gas: Values, by_species: Values | None,
                   for n, name in enumerate(names)]
     colours = iter([_MEASURED["color"], *_SPECIES])
     line = dict(_THEORY)
+    if np.any(np.greater(gas.get("diameter", 0.0), 0)):
+        line["label"] += " at low density"  # whatever the density of bodies that have a width
     for name, measured, expected in parts:
         colour = next(colours)
         for (text, quantity), fill in zip(quantities, (colour, "none")):

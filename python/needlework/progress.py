@@ -31,13 +31,22 @@ class TerminalLine:
         self._width = 0
 
     def show(self, text: str) -> None:
-        text = text[:shutil.get_terminal_size().columns - 1]
+        text = _whole_items(text, shutil.get_terminal_size().columns - 1)
         self._width = max(self._width, len(text))
         _write_stderr(f"\r{text:<{self._width}}")
 
     def clear(self) -> None:
         if self._width:
             _write_stderr(f"\r{'':<{self._width}}\r")
+
+
+def _whole_items(text: str, columns: int) -> str:
+    """As many of the items at its beginning as fit, as the program shows them; what matters most
+    comes first."""
+    while len(text) > columns:
+        shorter = text.rpartition(", ")[0]
+        text = shorter or text[:columns]
+    return text
 
 
 def _write_stderr(text: str) -> None:

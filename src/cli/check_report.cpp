@@ -191,6 +191,9 @@ std::string wall_text(const Scene::Wall& wall) {
 const char* unit_of_volume(const Composition& composition) {
   if (composition.longest() == 1) return "unit of volume";
   const bool differ = composition.is_mixture() || composition.has_own_sizes();
+  // Of rods with their caps.
+  if (composition.has_width())
+    return differ ? "cube of the longest extent" : "cube of their extent";
   return differ ? "cube of the longest length" : "cube of their length";
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <utility>
 
@@ -60,6 +61,41 @@ void warn_of_other_motion(const io::Material& material, const std::string& path)
   }
 }
 
+// Walls of every format are at rest, and thermal ones those of DynamO alone, which refuses walls
+// that move.
+void warn_of_walls(const io::Material& material, const std::string& path,
+                   const io::ExportFormat& format) {
+  if (format.whole_material) return;
+  std::vector<std::string> moving, thermal;
+  for (const Scene::Wall& wall : io::single_walls(material.walls)) {
+    const std::string name = wall.axis + "-" + wall.side;
+    if (wall.motion && (io::moves(*wall.motion) || io::slides(*wall.motion)))
+      moving.push_back(name);
+    if (wall.temperature) thermal.push_back(name);
+  }
+  for (const auto& [key, names] : {std::pair{"motion", moving}, {"temperature", thermal}}) {
+    if (names.empty()) continue;
+    print_warning(fmt::format("{}: walls.{} of {} is left out: {} has no place for it", path, key,
+                              fmt::join(names, ", "), format.what));
+  }
+}
+
+// Spheres of DynamO are points, which do not turn. Those that are smooth here do not turn either,
+// and their directors say nothing.
+void warn_of_turning_spheres(const State& state, const io::Material& material,
+                             const std::string& path, const io::ExportFormat& format) {
+  if (!format.whole_material || !io::are_spheres(material)) return;
+  const bool turn = std::ranges::any_of(state.angular_velocity,
+                                        [](const auto& w) { return w != std::array<double, 3>{}; });
+  const bool are_rough =
+      std::ranges::any_of(material.inertia, [](double inertia) { return inertia > 0; });
+  if (!turn && !are_rough) return;
+  print_warning(
+      fmt::format("{}: angular velocities, {}directors of the spheres are left out: "
+                  "those of DynamO do not turn",
+                  path, are_rough ? "moments of inertia and " : "and "));
+}
+
 // Where a file says nothing of its species, all needles are alike.
 void require_known_species(State& state, const io::Material& material, const std::string& path) {
   const std::size_t count = material.species();
@@ -88,10 +124,12 @@ void export_frames(const ExportArguments& arguments, const io::ExportFormat& for
   const io::Material material = read_material(arguments.from, format);
   const auto writer = format.open(arguments.to, arguments.force, material);
   if (format.whole_material) warn_of_other_motion(material, arguments.from);
+  warn_of_walls(material, arguments.from, format);
   for (std::size_t i = range.begin; i < range.end; ++i) {
     State state = file->read(i);
     require_known_species(state, material, arguments.from);
     count_from_low_edges(state);
+    warn_of_turning_spheres(state, material, arguments.from, format);
     writer->add({i, file->time(i), std::move(state)});
   }
   writer->publish();

@@ -176,7 +176,7 @@ void add_view_command(CLI::App& app, int& exit_code) {
 are lattices where they are seen from inside, else outlines. An open side has no
 edges; the picture reaches to the needle farthest beyond it.
 
-Colours:
+Colours, in sheared gases of velocities beside the flow:
   speed, spin     over the root mean square
   vx, vy, vz      component of the velocity, over its root mean square
   flow-x, -y, -z  component of the mean velocity in the ball of density, over

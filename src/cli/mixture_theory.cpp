@@ -130,6 +130,15 @@ Json json_of(const MixturePredictions& p) {
   return out;
 }
 
+// The species of the short form has no name.
+Composition with_names(Composition composition) {
+  if (!composition[0].name.empty()) return composition;
+  Species named = composition[0];
+  named.name = "needles";
+  composition.set_species(0, named);
+  return composition;
+}
+
 std::string mixture_table(const MixturePredictions& p) {
   std::string text =
       p.composition.has_width() ? "at the start, as at low density\n" : "at the start\n";
@@ -193,7 +202,9 @@ std::string mixture_theory_of(const runs::LoadedScene& loaded, const std::vector
     predictions.rates = theory::mixture_rates(composition, volume, predictions.initial);
     predictions.curve = theory::mixture_cooling(composition, volume, predictions.initial, times);
   }
-  return json ? json_text(json_of(predictions)) + "\n" : mixture_table(predictions);
+  if (json) return json_text(json_of(predictions)) + "\n";
+  predictions.composition = with_names(predictions.composition);
+  return mixture_table(predictions);
 }
 
 }  // namespace needlework::cli

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "src/cli/json.h"
 #include "src/cli/messages.h"
@@ -36,7 +37,7 @@ void ProgressLine::show(double elapsed, std::string line) {
     write_stderr(line + "\n");
     return;
   }
-  line.resize(std::min(line.size(), terminal_size().columns - 1));
+  line = runs::whole_items(std::move(line), terminal_size().columns - 1);
   write_stderr(fmt::format("\r{:<{}}", line, std::max(line.size(), drawn_)));
   drawn_ = line.size();
 }

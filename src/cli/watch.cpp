@@ -80,7 +80,7 @@ void RunWatch::draw() {
   const std::size_t rows = terminal.rows - std::min<std::size_t>(terminal.rows, 2);
   std::vector<std::string> lines =
       watch_lines(run_->panels(), {terminal.columns - 1, rows}, colours_);
-  if (!progress_.empty()) lines.push_back(progress_.substr(0, terminal.columns - 1));
+  if (!progress_.empty()) lines.push_back(runs::whole_items(progress_, terminal.columns - 1));
   // Lines of another width may have been broken: then new ones begin below them.
   const bool in_place = drawn_ > 0 && columns_ == terminal.columns;
   std::string text = in_place ? fmt::format("\033[{}A", drawn_) : "";

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 #include "src/io/hdf5.h"
 #include "src/io/sums.h"
 
@@ -88,7 +90,11 @@ void write_description(hid_t file, const std::string& path, const std::string& t
 
 std::string sentence(const Description& description) {
   std::string text = description.meaning;
-  if (!description.unit.empty()) text += ", in units of " + description.unit;
+  const std::string_view unit = description.unit, per = "per ";
+  if (unit.starts_with(per))
+    text += fmt::format(", in units of 1/{}", unit.substr(per.size()));
+  else if (!unit.empty())
+    text += fmt::format(", in units of {}", unit);
   if (description.shape.starts_with('[')) text += ", with shape " + description.shape;
   return text + ".";
 }

@@ -51,10 +51,10 @@ std::vector<double> lengths(const std::vector<Vector>& vectors) {
 
 // Q = 3 (u . v)^2 / v^2 - 1, as the observable `alignment` has it; 0, its mean, for needles at
 // rest.
-std::vector<double> alignments(const State& state) {
+std::vector<double> alignments(const State& state, const std::vector<Vector>& velocities) {
   std::vector<double> all;
   for (std::size_t i = 0; i < state.size(); ++i) {
-    const Vector& v = state.velocity[i];
+    const Vector& v = velocities[i];
     const double speed = std::hypot(v[0], v[1], v[2]);
     const double cosine = speed > 0 ? dot(state.orientation[i], v) / speed : std::sqrt(1.0 / 3);
     all.push_back(3 * cosine * cosine - 1);
@@ -82,8 +82,8 @@ class Neighbours {
   void for_each(std::size_t i, Action action) const {
     const Cell cell = cell_of(i);
     Cell other;
-    for_neighbours(cell[0], count_[0], [&](std::size_t x) {
-      for_neighbours(cell[1], count_[1], [&](std::size_t y) {
+    for_neighbours(cell[1], count_[1], [&](std::size_t y) {
+      for_columns(cell, y, [&](std::size_t x) {
         for_neighbours(cell[2], count_[2], [&](std::size_t z) {
           other = {x, y, z};
           for (const std::size_t j : cells_[number(other)]) {
@@ -103,6 +103,16 @@ class Neighbours {
     action(cell);
     if (count > 1) action((cell + 1) % count);
     if (count > 2) action((cell + count - 1) % count);
+  }
+
+  // Along x, of a row of cells beside that of this cell. Across the border along y cells are not
+  // beside those of the same number if rows of boxes have slid, so all are looked at: few needles
+  // are there.
+  template <class Action>
+  void for_columns(const Cell& cell, std::size_t row, Action action) const {
+    const bool across = count_[1] <= 2 || std::max(cell[1], row) - std::min(cell[1], row) > 1;
+    if (state_.slide == 0 || !across) return for_neighbours(cell[0], count_[0], action);
+    for (std::size_t x = 0; x < count_[0]; ++x) action(x);
   }
 
   std::size_t number(const Cell& cell) const {
@@ -162,14 +172,15 @@ std::vector<double> densities(const State& state) {
 }
 
 // A component of the mean velocity of each needle and those around it.
-std::vector<double> flows(const State& state, std::size_t axis) {
+std::vector<double> flows(const State& state, const std::vector<Vector>& velocities,
+                          std::size_t axis) {
   if (state.size() < 2) return std::vector<double>(state.size(), 0.0);
   const Neighbours neighbours(state, Ball(state).radius);
   std::vector<double> all;
   for (std::size_t i = 0; i < state.size(); ++i) {
-    double sum = state.velocity[i][axis], count = 1;
+    double sum = velocities[i][axis], count = 1;
     neighbours.for_each(i, [&](std::size_t j) {
-      sum += state.velocity[j][axis];
+      sum += velocities[j][axis];
       ++count;
     });
     all.push_back(sum / count);
@@ -217,23 +228,32 @@ const std::vector<std::string>& quantities() {
   return all;
 }
 
+std::vector<Vector> velocities_beside_flow(const State& state) {
+  if (state.peculiar_velocity.size() == state.size()) return state.peculiar_velocity;
+  std::vector<Vector> all = state.velocity;
+  if (state.shear_rate == 0) return all;
+  for (std::size_t i = 0; i < all.size(); ++i) all[i][0] -= state.shear_rate * state.position[i][1];
+  return all;
+}
+
 NeedleValues values_of(const std::string& quantity, const State& state, bool dark) {
   NeedleValues result{{}, "", {0, 2}, sequential_gradient(dark)};
+  const std::vector<Vector> velocities = velocities_beside_flow(state);
   if (quantity == "speed") {
-    result.values = lengths(state.velocity);
+    result.values = lengths(velocities);
     make_relative(result, state, "speed");
   } else if (quantity == "spin") {
     result.values = lengths(state.angular_velocity);
     make_relative(result, state, "spin");
   } else if (quantity == "vx" || quantity == "vy" || quantity == "vz") {
     const auto axis = static_cast<std::size_t>(quantity[1] - 'x');
-    for (const Vector& v : state.velocity) result.values.push_back(v[axis]);
+    for (const Vector& v : velocities) result.values.push_back(v[axis]);
     make_relative(result, state, quantity);
     result.range = {-2, 2};
     result.gradient = diverging_gradient(dark);
   } else if (quantity == "flow-x" || quantity == "flow-y" || quantity == "flow-z") {
-    result.values = flows(state, static_cast<std::size_t>(quantity.back() - 'x'));
-    const double unit = root_mean_square(lengths(state.velocity), state) / std::sqrt(3);
+    result.values = flows(state, velocities, static_cast<std::size_t>(quantity.back() - 'x'));
+    const double unit = root_mean_square(lengths(velocities), state) / std::sqrt(3);
     if (unit > 0) {
       for (double& value : result.values) value /= unit;
     }
@@ -241,7 +261,7 @@ NeedleValues values_of(const std::string& quantity, const State& state, bool dar
     result.range = {-1.5, 1.5};
     result.gradient = diverging_gradient(dark);
   } else if (quantity == "alignment") {
-    result.values = alignments(state);
+    result.values = alignments(state, velocities);
     result.label = "alignment of needle and velocity";
     result.range = {-1, 2};
   } else if (quantity == "density") {

@@ -1,6 +1,7 @@
 // What needles can be coloured by.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,12 @@ const std::vector<std::string>& quantities();
 /// in units of (T_tr / m)^1/2, is called "flow-x" and so on.
 inline constexpr const char* flow_along[] = {"flow-x", "flow-y", "flow-z"};
 
-/// The values of one of the quantities, for a ground that is dark or light. Throws
-/// std::invalid_argument for another name.
+/// Of each needle: in a uniform flow the peculiar velocity, which is the same for all images, and
+/// otherwise the velocity. [L / time]
+std::vector<std::array<double, 3>> velocities_beside_flow(const State& state);
+
+/// The values of one of the quantities, those of velocities beside a uniform flow, for a ground
+/// that is dark or light. Throws std::invalid_argument for another name.
 NeedleValues values_of(const std::string& quantity, const State& state, bool dark);
 
 }  // namespace needlework::picture

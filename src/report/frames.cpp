@@ -83,6 +83,7 @@ Json frame_of(const State& state, std::span<const picture::WallSurface> walls,
   std::vector<std::uint16_t> position;
   std::vector<std::int16_t> orientation;
   std::vector<float> speed, spin;
+  const std::vector<Vector> velocities = picture::velocities_beside_flow(state);
   for (const std::size_t i : chosen) {
     const Vector place = box.wrap(state.position[i]).place;
     for (std::size_t a = 0; a < 3; ++a) {
@@ -90,7 +91,7 @@ Json frame_of(const State& state, std::span<const picture::WallSurface> walls,
       orientation.push_back(
           static_cast<std::int16_t>(std::lround(32767 * state.orientation[i][a])));
     }
-    speed.push_back(length_of(state.velocity[i]));
+    speed.push_back(length_of(velocities[i]));
     spin.push_back(length_of(state.angular_velocity[i]));
   }
   const std::size_t n = chosen.size();

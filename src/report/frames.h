@@ -24,13 +24,13 @@ struct BodySizes {
 /// at an open side it ends with the needles of this frame and those after it), the place of each
 /// wall, and arrays of the needles shown [n]. `position` [n][3] is the centre between these
 /// corners, along periodic axes wrapped, in units of their distance / 65536, `orientation` [n][3]
-/// the director in units of 1 / 32767, `speed` |v|, `spin` |w|, and `flow`, `alignment` and
-/// `density` are those of needlework view, see picture::values_of; the flow is that along
-/// `flow_axis`, along which needles flow most in the last frame. `sizes` are those of the species,
-/// which count where needles have none of their own: of several, or of needles that differ,
-/// `share_of_length` [n] is the length of each needle shown over that of the longest. Of rods of
-/// finite width there is the largest `diameter`, and `share_of_diameter` as well. `walls` are each
-/// of one side.
+/// the director in units of 1 / 32767, `speed` |v|, in a uniform flow that beside it, `spin` |w|,
+/// and `flow`, `alignment` and `density` are those of needlework view, see picture::values_of; the
+/// flow is that along `flow_axis`, along which needles flow most in the last frame. `sizes` are
+/// those of the species, which count where needles have none of their own: of several, or of
+/// needles that differ, `share_of_length` [n] is the length of each needle shown over that of the
+/// longest. Of rods of finite width there is the largest `diameter`, and `share_of_diameter` as
+/// well. `walls` are each of one side.
 ///
 /// Frames and needles beyond the limits are left out evenly, the same needles in all frames.
 nlohmann::ordered_json frames_of(const std::string& path, const BodySizes& sizes,

@@ -143,6 +143,11 @@ void require_mark(const std::string& path, std::string_view line) {
     const std::string_view patch = line.substr(mark_but_patch.size());
     if (patch.size() > 1 && patch.find_first_not_of("0123456789") == patch.size() - 1) return;
   }
+  constexpr std::string_view hdf5 = "\x89HDF\r\n", ending = ".checkpoint";
+  if (line == hdf5 && !path.ends_with(ending)) {
+    throw InputError(fmt::format("{}: a file of HDF5, not a checkpoint: expected such as {}{}",
+                                 path, path, ending));
+  }
   constexpr std::string_view any_version = "needlework checkpoint ";
   if (!line.starts_with(any_version)) throw damaged(path, "expected a checkpoint");
   const auto quoted = [](std::string_view text) {

@@ -6,6 +6,7 @@
 #include "src/io/descriptions.h"
 #include "src/io/hdf5.h"
 #include "src/io/output_file.h"
+#include "src/observe/observation.h"
 #include "src/runs/sweep_summary.h"
 
 namespace needlework::runs::sweep {
@@ -73,6 +74,21 @@ void write_results(hid_t group, std::span<const PointSummary> summary, const std
   }
 }
 
+// Numbers of bodies that grow are described as in the files of the runs.
+std::vector<io::Description> growth_descriptions(const Scene& scene) {
+  std::vector<io::Description> out;
+  if (!scene.driving.growth) return out;
+  for (const SeriesGroup& group : observe::Observation(scene).groups()) {
+    const std::string prefix = group.name == "growth"            ? "growth_"
+                               : group.name == "contact_network" ? "network_"
+                                                                 : "";
+    if (prefix.empty()) continue;
+    for (const SeriesField& field : group.fields)
+      out.push_back({"/results/" + prefix + field.name, field.meaning, field.unit, ""});
+  }
+  return out;
+}
+
 void write_series(hid_t group, const PointSummary& point, const std::string& place) {
   write_array<double>(group, "time", {point.times.size()}, point.times, place);
   for (const Series& series : point.series) {
@@ -108,6 +124,7 @@ void write_summary(const std::string& path, const Grid& grid,
     }
   }
   io::write_descriptions(file.get(), io::sweep_summary_descriptions(), path);
+  io::write_descriptions(file.get(), growth_descriptions(grid.members.front().scene), path);
   file.close();
   atomic.publish();
 }

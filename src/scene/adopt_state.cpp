@@ -334,7 +334,7 @@ void adopt_state(Scene& scene, State& state) {
   if (lacks_numbers(scene, state)) state.own_bodies = all_numbers_of(scene, state);
   add_inertia_of_spheres(scene, state);
   adopt_own_bodies(scene, state);
-  require_rules(scene, Aspect::sizes);
+  require_rules(scene, Aspect::sizes | Aspect::walls);
   if (!scene.initial.file.empty()) require_no_spin_about_axes(scene, state);
   if (scene.places.contains("needles.box")) require_rules(scene, Aspect::room);
 }

@@ -85,7 +85,7 @@ void require_restored(const Scene& scene) {
   require_ranges(scene, Aspect::bodies | Aspect::walls | Aspect::effects | Aspect::output |
                             Aspect::start | Aspect::restored);
   require_rules(scene,
-                Aspect::species | Aspect::bodies | Aspect::pairs | Aspect::effects |
+                Aspect::species | Aspect::bodies | Aspect::pairs | Aspect::walls | Aspect::effects |
                     Aspect::output | Aspect::room | Aspect::restored | Aspect::sizes,
                 {.has_places = false});
 }

@@ -236,6 +236,16 @@ species = [{ name = "spheres", count = 864, length = 0, diameter = 1 }]
   EXPECT_FALSE(run("check small.toml --json").json().contains("placing"));
 }
 
+TEST_F(CheckCommand, CountsBodiesInCubesOfTheirExtentsWithCaps) {
+  write("rods.toml", "needles = { count = 100, box = 11, diameter = 0.1 }\nuntil.time = 1\n");
+  EXPECT_TRUE(contains(run("check rods.toml").out, ", 0.1 needles per cube of their extent\n"));
+  write("mixture.toml",
+        "needles.box = 11\nuntil.time = 1\nspecies = [{ name = \"rods\", count = 50, length = 1, "
+        "diameter = 0.1 }, { name = \"needles\", count = 50, length = 1 }]\n");
+  EXPECT_TRUE(
+      contains(run("check mixture.toml").out, ", 0.1 needles per cube of the longest extent\n"));
+}
+
 TEST_F(CheckCommand, RefusesAStateThatRunRefuses) {
   Scene scene;
   scene.needles.count = 2;

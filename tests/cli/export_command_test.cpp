@@ -258,6 +258,45 @@ TEST_F(ExportCommand, WarnsOfWhatDynamoDoesNotHave) {
       run("export b.h5 b.xml").complains("beta = 0.25 is left out: lines of DynamO are smooth"));
 }
 
+TEST_F(ExportCommand, WarnsOfWallsThatMoveOrAreThermal) {
+  write("walls.toml", R"(needles = { count = 20, box = 5 }
+until.time = 0.1
+output.checkpoint_every = 0
+walls = [
+  { axis = "z", side = "low", motion = { amplitude = 0.1, frequency = 2, phase = 0 } },
+  { axis = "z", side = "high", motion = { velocity = 0 } },
+  { axis = "x", side = "both", temperature = 2 },
+  { axis = "y", side = "both", motion = { tangential = [0, 0.1] } },
+]
+)");
+  ASSERT_EQ(run("run walls.toml --quiet --out a.h5").exit_code, 0);
+  for (const char* name : {"a.xyz", "a.data", "a.dump", "a.pvd", "a.vtkhdf"}) {
+    const Outcome exported = run(fmt::format("export a.h5 {}", name));
+    EXPECT_EQ(exported.exit_code, 0) << exported.err;
+    for (const char* part : {"a.h5: walls.motion of z-low, y-low, y-high is left out: ",
+                             "a.h5: walls.temperature of x-low, x-high is left out: "})
+      EXPECT_TRUE(contains(exported.err, part)) << name << ": " << exported.err;
+  }
+  write("thermal.toml",
+        "needles = { count = 20, box = 5 }\nuntil.time = 0.1\noutput.checkpoint_every = 0\n"
+        "walls = [{ axis = \"z\", side = \"both\", temperature = 2 }]\n");
+  ASSERT_EQ(run("run thermal.toml --quiet --out b.h5").exit_code, 0);
+  EXPECT_FALSE(contains(run("export b.h5 b.xml").err, "temperature"));
+}
+
+TEST_F(ExportCommand, WarnsOfTheRotationOfSpheresThatDynamoDoesNotHave) {
+  write("spheres.toml",
+        "needles.box = 7\nuntil.time = 0.1\noutput.checkpoint_every = 0\n"
+        "species = [{ name = \"a\", count = 5, length = 0, diameter = 1 }]\n");
+  ASSERT_EQ(run("run spheres.toml --quiet --out a.h5 --set collisions.beta=0.5").exit_code, 0);
+  const std::string rotation =
+      "a.h5: angular velocities, moments of inertia and directors of the spheres are left out";
+  EXPECT_TRUE(contains(run("export a.h5 a.xml").err, rotation));
+  EXPECT_EQ(run("export a.h5 a.xyz").err, "");
+  ASSERT_EQ(run("run spheres.toml --quiet --out b.h5").exit_code, 0);
+  EXPECT_EQ(run("export b.h5 b.xml").err, "");
+}
+
 // The run from an exported mixture is that from the file itself.
 TEST_F(ExportCommand, MixturesGoToDynamoAndBack) {
   const std::string of_lines =

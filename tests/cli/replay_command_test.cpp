@@ -136,6 +136,10 @@ TEST_F(ReplayCommand, TakesACheckpoint) {
 TEST_F(ReplayCommand, RefusesOtherFiles) {
   EXPECT_TRUE(run("replay small.toml").fails(3, "small.toml: damaged: expected a checkpoint"));
   EXPECT_EQ(run("replay none.failure").exit_code, 3);
+  ASSERT_EQ(run("run small.toml --quiet --out a.h5").exit_code, 0);
+  EXPECT_TRUE(
+      run("replay a.h5")
+          .fails(3, "a.h5: a file of HDF5, not a checkpoint: expected such as a.h5.checkpoint"));
 }
 
 TEST_F(ReplayCommand, WithoutOutputThereIsNoBundle) {

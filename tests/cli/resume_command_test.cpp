@@ -252,6 +252,8 @@ TEST_F(ResumeCommand, GoesOnFromBodiesOfAFile) {
        {Case{"", species + "k" + drawn}, Case{"", species + "diameter" + drawn},
         Case{"collisions.beta = 0.5\n", species + spheres + "diameter" + drawn},
         Case{"", species + "[[species]]\nname = 'f'\ncount = 9\nfixed = true\nlength" + drawn},
+        Case{"", species + "[[species]]\nname = 'f'\ncount = 9\nfixed = true\n" +
+                     "diameter.aspect = 4\nlength" + drawn},
         Case{"collisions.beta = 0.5\n", species + spheres + "diameter = 1\n" +
                                             "[[species]]\nname = 'f'\ncount = 9\nfixed = true\n" +
                                             "overlap = true\nlength = 0\ndiameter" + drawn},

@@ -190,8 +190,8 @@ TEST_F(RunLog, ProgressIsOneLineWithRateCheckpointAndDrift) {
   const Outcome done = run("run small.toml --json --out a.h5 --progress-every 0");
   EXPECT_EQ(done.exit_code, 0);
   const std::string first = done.err.substr(0, done.err.find('\n'));
-  for (const char* part : {" % done, ", " left: ", " collisions, ", "/s, time ", ", saved ",
-                           " ago, drift E ", ", P "}) {
+  for (const char* part :
+       {" % done, ", " left: ", " collisions, drift E ", ", P ", ", time ", "/s, saved ", " ago"}) {
     EXPECT_TRUE(contains(first, part)) << " in ";
   }
 }

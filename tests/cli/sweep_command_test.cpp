@@ -51,6 +51,21 @@ seeds = [1, 2, 3, 4, 5, 6]
   }
 };
 
+TEST_F(SweepCommand, DescribesNumbersOfBodiesThatGrowAsTheirRunsDo) {
+  write("growing.toml", R"(needles = { count = 20, box = 4, diameter = 0.2 }
+until.time = 0.2
+driving.growth.rate = 0.1
+output.observables = ["contact_network"]
+)");
+  write("growth.toml", "scene = \"growing.toml\"\nseeds = [1, 2]\n");
+  ASSERT_EQ(run("sweep growth.toml --out all --quiet").exit_code, 0);
+  const std::string text = run("info all/summary.h5").out;
+  for (const char* part : {"  growth_scale\n", "Present sizes of bodies in those of the start.",
+                           "What this scale gains in a unit of time, in units of 1/time.",
+                           "  network_rattlers\n", "Number of bodies that fewer than 4"})
+    EXPECT_TRUE(contains(text, part)) << part;
+}
+
 TEST_F(SweepCommand, PrintsAMeanAndAnErrorOfEachResultInALineOfEachPoint) {
   const json points = result("grid.toml --out all")["points"];
   std::istringstream lines(run("sweep grid.toml --out all --csv --quiet").out);

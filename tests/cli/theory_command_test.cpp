@@ -229,6 +229,15 @@ TEST_F(TheoryCommand, TakesTheContactTimeOfAScene) {
 }
 
 // It would be the course of another gas.
+TEST_F(TheoryCommand, NamesTheSpeciesOfAShortFormInItsText) {
+  write("rods.toml", "needles = { count = 100, box = 9, diameter = 0.1 }\nuntil.time = 1\n");
+  const std::string text = run("theory rods.toml").out;
+  EXPECT_TRUE(contains(text, "\n  needles-needles "));
+  EXPECT_TRUE(contains(text, "\n  needles  "));
+  EXPECT_TRUE(contains(text, "T_tr needles"));
+  EXPECT_TRUE(run("theory rods.toml --json").json()["collisions_per_time"].contains("-"));
+}
+
 TEST_F(TheoryCommand, RefusesWhatItDoesNotDescribe) {
   const std::string gas = "needles = { count = 20, box = 4 }\nuntil.time = 1\n";
   const std::string walls = "[[walls]]\naxis = \"z\"\nside = \"low\"\n";

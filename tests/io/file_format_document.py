@@ -133,7 +133,7 @@ class Row:
     def sentence(self, shape):
         text = self.meaning
         if self.unit:
-            text += ", in units of " + self.unit
+            text += ", in units of " + re.sub("^per ", "1/", self.unit)
         if shape:
             text += ", with shape " + shape
         return text + "."

@@ -126,5 +126,70 @@ TEST(NeedleValues, OfDensityAndFlowAreThoseOfTheNeighboursAcrossTheBorders) {
   }
 }
 
+// A gas in a uniform flow, some of whose needles are stored as images of those in the box.
+TEST(NeedleValues, OfShearedGasesAreThoseOfPeculiarVelocitiesWhicheverImageIsStored) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> share(0, 1), component(-1, 1);
+  std::uniform_int_distribution<int> boxes(-1, 1);
+  constexpr double rate = 3, slide = 9.5;
+  constexpr std::size_t count = 300;
+  State state = needles_at(4, std::vector<std::array<double, 3>>(count));
+  state.box = {24, 6, 4};  // cells that have slid past more than their neighbours
+  state.slide = slide;
+  state.shear_rate = rate;
+  std::vector<std::array<double, 3>> peculiar(count);
+  State images = state;
+  double square = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      state.position[i][axis] = share(random) * state.box[axis];
+      peculiar[i][axis] = component(random);
+      square += peculiar[i][axis] * peculiar[i][axis];
+    }
+    state.velocity[i] = peculiar[i];
+    state.velocity[i][0] += rate * state.position[i][1];
+    const int x = boxes(random), y = boxes(random), z = boxes(random);
+    images.position[i] = state.position[i];
+    images.position[i][0] += 24 * x + slide * y;
+    images.position[i][1] += 6 * y;
+    images.position[i][2] += 4 * z;
+    images.velocity[i] = state.velocity[i];
+    images.velocity[i][0] += rate * 6 * y;
+  }
+  State given = images;  // as copies of a run have it
+  given.peculiar_velocity = peculiar;
+  const double thermal = std::sqrt(square / (3 * count));
+  for (const std::string& quantity : quantities()) {
+    const std::vector<double> expected = values(quantity, state);
+    const std::vector<double> of_images = values(quantity, images),
+                              of_given = values(quantity, given);
+    EXPECT_EQ(values_of(quantity, images, true).label, values_of(quantity, state, true).label);
+    for (std::size_t i = 0; i < count; ++i) {
+      EXPECT_NEAR(of_images[i], expected[i], 1e-9) << quantity;
+      EXPECT_NEAR(of_given[i], expected[i], 1e-9) << quantity;
+    }
+  }
+  EXPECT_NEAR(values("vx", state)[5] / peculiar[5][0], values("vx", state)[6] / peculiar[6][0],
+              1e-9);
+
+  constexpr double radius = 2;  // the largest that fits into the box
+  const std::vector<double> flow = values("flow-x", state);
+  for (std::size_t i = 0; i < count; ++i) {
+    double sum = 0, near = 0;
+    for (std::size_t j = 0; j < count; ++j) {
+      std::array<double, 3> apart;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        apart[axis] = state.position[i][axis] - state.position[j][axis];
+      const double rows = std::nearbyint(apart[1] / 6);
+      const double distance = std::hypot(std::remainder(apart[0] - slide * rows, 24.0),
+                                         apart[1] - 6 * rows, std::remainder(apart[2], 4.0));
+      if (distance >= radius) continue;
+      sum += peculiar[j][0];
+      ++near;
+    }
+    EXPECT_NEAR(flow[i], sum / near / thermal, 1e-9) << i;
+  }
+}
+
 }  // namespace
 }  // namespace needlework::picture

@@ -128,6 +128,36 @@ class Pictures(InFolder):
         areas = np.sort(discs.get_sizes())
         np.testing.assert_allclose(areas[10:], 4 * areas[0])
 
+    def test_theory_of_bodies_with_a_width_is_that_of_low_density(self):
+        def label_of(species):
+            sim = Simulation({"needles": {"box": 6.0}, "species": [{"name": "a", "count": 20,
+                                                                    **species}]})
+            self.addCleanup(sim.close)
+            samples = [sim.totals]
+            sim.run(time=0.1)
+            series = needlework.Series.of([*samples, sim.totals])
+            return plot.cooling(series, gas=sim.gas).lines[0].get_label()
+
+        self.assertEqual(label_of({"length": 0, "diameter": 1.0}), "kinetic theory at low density")
+        self.assertEqual(label_of({"diameter": 0.1}), "kinetic theory at low density")
+        self.assertEqual(label_of({}), "kinetic theory")
+
+    def test_needles_in_a_flow_are_coloured_by_their_speeds_beside_it(self):
+        path = self.folder / "sheared.h5"
+        sim = Simulation({"needles": {"count": 20, "box": 6.0}, "shear": {"rate": 2.0},
+                          "output": {"file": str(path)}})
+        sim.run(time=1)
+        speed = np.linalg.norm(sim.peculiar_velocity, axis=1)
+        sim.close()
+        with read(path) as recording:
+            lines, = plot.needles(recording.frames[-1]).collections
+        np.testing.assert_allclose(lines.get_array(), speed, rtol=1e-9)
+
+    def test_needles_of_something_else_say_what_is_expected(self):
+        for other in (self.recording, self.recording.path):
+            with self.assertRaisesRegex(needlework.InputError, "expected a Simulation or a frame"):
+                plot.needles(other)
+
     def test_a_path_is_read(self):
         for read_here, read_before in zip(plot.cooling(self.recording.path).lines,
                                           plot.cooling(self.recording).lines):
@@ -157,7 +187,7 @@ class PicturesOfAMixture(InFolder):
         """The points by their names in the legend, beside how many lines of theory there are."""
         named = {text.get_text() for text in axes.get_legend().get_texts()}
         points = {line.get_label(): line for line in axes.lines if line.get_marker() == "o"}
-        self.assertEqual(named, {*points, "kinetic theory"})
+        self.assertEqual(named, {*points, "kinetic theory at low density"})
         self.assertEqual(len(axes.lines), 2 * len(points))
         self.assertEqual(len({(line.get_color(), line.get_markerfacecolor())
                               for line in points.values()}), len(points))

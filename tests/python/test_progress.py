@@ -2,10 +2,12 @@
 
 import contextlib
 import io
+import os
 import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 from needlework import Simulation, read
 from needlework.progress import NotebookLine, progress_line
@@ -25,10 +27,16 @@ class Progress(unittest.TestCase):
     def test_a_line_is_drawn_and_taken_away(self):
         printed = stderr_of(True)
         lines = printed.split("\r")
-        self.assertRegex(lines[1], r"^ *[0-9.]+ % done, .* left: \d+ collisions, [0-9.e+]+/s, "
-                         r"time [0-9.e+]+.*$")
+        self.assertRegex(lines[1], r"^ *[0-9.]+ % done, .* left: \d+ collisions, "
+                         r"drift E [-0-9.e+]+.*$")
         self.assertEqual(lines[-1], "")
         self.assertEqual(lines[-2].strip(), "")
+
+    def test_items_that_do_not_fit_are_left_out_whole(self):
+        printed = io.StringIO()
+        with contextlib.redirect_stderr(printed), mock.patch.dict(os.environ, COLUMNS="40"):
+            progress_line(True).show("42.3 % done, 9 s left: 17 collisions, time 404.2, P 3e-16")
+        self.assertEqual(printed.getvalue(), "\r42.3 % done, 9 s left: 17 collisions")
 
     def test_nothing_is_shown_by_default(self):
         self.assertEqual(stderr_of(None), "")

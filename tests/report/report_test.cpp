@@ -250,6 +250,27 @@ TEST_F(Report, ShowsTheScenesOfRunsFromAStateOfTheCaller) {
   }
 }
 
+TEST_F(Report, ColoursShearedGasesByTheirPeculiarVelocities) {
+  const Scene scene = parse_scene(
+      "needles = { count = 3, box = [4, 5, 6] }\nuntil.time = 1\nshear.rate = -0.5", "scene", {});
+  io::Writer writer(path("run.h5"), true, scene, {"scalar", 1, 1.0});
+  State in_flow = state(3, 1);
+  in_flow.shear_rate = -0.5;
+  in_flow.peculiar_velocity = in_flow.velocity;
+  for (std::size_t i = 0; i < 3; ++i) {
+    in_flow.velocity[i][0] += -0.5 * in_flow.position[i][1];
+    in_flow.position[i][1] += 5;  // an image
+    in_flow.velocity[i][0] += -0.5 * 5;
+  }
+  writer.write_frame(totals(0), in_flow);
+  writer.close();
+  const test::PageData page = page_of({"run.h5"});
+  const json& frames = page.json["sections"][0]["frames"];
+  EXPECT_EQ(frames["flow_axis"], 2);
+  const auto speed = page.numbers<float>(frames["frames"][0]["speed"]);
+  EXPECT_EQ(speed, (std::vector<float>{5, 5, 5}));
+}
+
 TEST_F(Report, ShowsWallsWhereTheyAreAndNeedlesBeyondOpenSides) {
   write_run("run.h5", "walls", 3, 2,
             "forces.gravity = [1, 0, -2]\n"

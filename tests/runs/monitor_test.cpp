@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "src/runs/prepared_run.h"
+#include "src/runs/progress_text.h"
 #include "src/runs/sweep_run.h"
 #include "tests/support/contains.h"
 #include "tests/support/runs.h"
@@ -65,6 +66,27 @@ TEST(RunMonitor, StopsARun) {
   EXPECT_GE(result.last.collisions, 20u);
   EXPECT_LT(result.last.collisions, 10000000u);
   EXPECT_EQ(watcher.cleared, 1);
+}
+
+TEST(ProgressText, LeavesOutWholeItemsThatDoNotFit) {
+  Progress progress{.elapsed = 3, .fraction = 0.423, .left = 12.3, .rate = 123456.7};
+  progress.now.collisions = 161099;
+  progress.now.time = 404.2;
+  progress.initial.energy = 1;
+  progress.now.energy = 0.3125;
+  progress.energy_drift = -1.2e-16;
+  progress.momentum_drift = 3.4e-16;
+  progress.since_checkpoint = 2;
+  const std::string line = progress_text(progress);
+  EXPECT_EQ(line,
+            "42.3 % done, 12.3 s left: 161099 collisions, drift E -1e-16, P 3e-16, time 404.2, "
+            "E/E(0) = 0.312, 1.23e+05/s, saved 2.0 s ago");
+  // On a terminal of 80 columns.
+  EXPECT_EQ(whole_items(line, 79),
+            "42.3 % done, 12.3 s left: 161099 collisions, drift E -1e-16, P 3e-16");
+  EXPECT_EQ(whole_items(line, 200), line);
+  EXPECT_EQ(whole_items(line, 40), "42.3 % done");
+  EXPECT_EQ(whole_items(line, 4), "42.3");
 }
 
 struct SweepWatcher : SweepMonitor {

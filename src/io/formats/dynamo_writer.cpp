@@ -189,7 +189,6 @@ std::string DynamoWriter::locals(const Vector& box) const {
   const bool one_size = std::ranges::all_of(composition_.species(), [&](const Species& each) {
     return each.diameter == composition_[0].diameter;
   });
-  constexpr std::array<double, 2> no_slip{};
   std::string text = "    <Locals>\n";
   for (const Scene::Wall& wall : walls_) {
     const auto axis = static_cast<std::size_t>(wall.axis[0] - 'x');
@@ -197,10 +196,8 @@ std::string DynamoWriter::locals(const Vector& box) const {
     Vector normal{}, origin{};
     normal[axis] = high ? -1 : 1;
     origin[axis] = (high ? 0.5 : -0.5) * box[axis];
-    const bool moves =
-        wall.motion && (wall.motion->amplitude > 0 || wall.motion->velocity.value_or(0) != 0);
-    const bool slides = wall.motion && wall.motion->tangential.value_or(no_slip) != no_slip;
-    if (moves || slides) {
+    const bool moves = wall.motion && io::moves(*wall.motion);
+    if (moves || (wall.motion && slides(*wall.motion))) {
       throw InputError(
           fmt::format("{}: the wall {}-{} {}: expected walls at rest, as in a "
                       "configuration of DynamO",

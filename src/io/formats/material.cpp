@@ -144,6 +144,15 @@ std::vector<Scene::Wall> single_walls(const std::vector<Scene::Wall>& walls) {
   return out;
 }
 
+bool moves(const Scene::WallMotion& motion) {
+  return motion.amplitude > 0 || motion.velocity.value_or(0) != 0;
+}
+
+bool slides(const Scene::WallMotion& motion) {
+  constexpr std::array<double, 2> no_slip{};
+  return motion.tangential.value_or(no_slip) != no_slip;
+}
+
 const Scene::Wall* wall_at(const Material& material, std::size_t axis, bool high) {
   for (const Scene::Wall& wall : material.walls) {
     const bool there = wall.side == "both" || wall.side == (high ? "high" : "low");

@@ -45,6 +45,10 @@ std::vector<Scene::Wall> single_walls(const std::vector<Scene::Wall>& walls);
 /// The wall at this end of an axis (0, 1, 2 for x, y, z), none if there is none.
 const Scene::Wall* wall_at(const Material& material, std::size_t axis, bool high);
 
+/// Whether the wall changes its place, or its surface moves along itself.
+bool moves(const Scene::WallMotion& motion);
+bool slides(const Scene::WallMotion& motion);
+
 /// A body, as files have it.
 struct BodyOfRow {
   double length, diameter;  ///< [L]

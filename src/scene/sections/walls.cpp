@@ -108,13 +108,15 @@ std::optional<Violation> piston_stops_behind(const Scene& scene) {
   for (const Scene::WallSide& side : scene.wall_sides()) {
     const auto& motion = scene.walls[side.entry].motion;
     if (!motion || !motion->velocity || !motion->stop_at) continue;
+    if (scene.needles.box[side.axis] == 0) continue;  // that of a state, which is not known yet
     const double start = side.is_high ? scene.needles.box[side.axis] : 0;
     if ((*motion->stop_at - start) / *motion->velocity >= 0) continue;
-    return Violation{.key = key_of_entry("walls.motion.stop_at", side.entry),
-                     .value = fmt::to_string(*motion->stop_at),
-                     .reason = fmt::format("expected a place at or {} {}, from which the wall moves {}",
-                                           *motion->velocity > 0 ? "above" : "below", start,
-                                           *motion->velocity > 0 ? "up" : "down")};
+    return Violation{
+        .key = key_of_entry("walls.motion.stop_at", side.entry),
+        .value = fmt::to_string(*motion->stop_at),
+        .reason = fmt::format("expected a place at or {} {}, from which the wall moves {}",
+                              *motion->velocity > 0 ? "above" : "below", start,
+                              *motion->velocity > 0 ? "up" : "down")};
   }
   return {};
 }
@@ -219,7 +221,7 @@ SceneSection walls_section() {
       .rules = {{Aspect::effects, side_has_two_walls},
                 {Aspect::effects, thermal_wall_moves_or_bounces},
                 {Aspect::effects, motion_is_of_two_kinds},
-                {Aspect::room, piston_stops_behind},
+                {Aspect::walls, piston_stops_behind},
                 {Aspect::room, pistons_meet},
                 {Aspect::effects, needles_would_leave}},
       .entries = entries_in<&Scene::walls>(most_walls),
