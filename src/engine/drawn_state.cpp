@@ -235,6 +235,10 @@ State stirred(const Scene& scene, State state, double collisions_per_rod, const 
   Scene::Until until;
   until.collisions_per_needle = collisions_per_rod;
   until.wall_s = 0.1;
+  // Bodies that hardly ever meet, or never, need not be moved on for ever.
+  constexpr double times_as_long = 100;
+  const double by_then = times_as_long * collisions_per_rod * simulation.mean_free_time();
+  until.time = std::isfinite(by_then) ? by_then : 0;
   while (simulation.advance(until) == Stop::wall_time) {
     const auto rods = static_cast<double>(simulation.needles());
     StopRequest::check(

@@ -115,6 +115,20 @@ TEST(Placing, KeepsFixedOnesApartThatMayNotOverlap) {
   }
 }
 
+// Moving them from a lattice would have no end.
+TEST(Placing, DoesNotWaitForBodiesThatNeverMeet) {
+  for (const char* species : {"count = 1\n",
+                              "count = 4\n[[pairs]]\nbetween = [\"a\", \"a\"]\n"
+                              "meet = false\n"}) {
+    const Scene scene = parse(head +
+                              "initial.packing = \"lattice\"\n[[walls]]\naxis = \"z\"\n"
+                              "side = \"both\"\n[[species]]\nname = \"a\"\nlength = 0\n"
+                              "diameter = 1\n" +
+                              species);
+    EXPECT_NO_THROW(draw_state(scene));
+  }
+}
+
 TEST(Placing, LeavesFixedOnesOnTheirLattice) {
   Scene scene = parse(among("count = 100\nlength = 0\ndiameter = 0.5\n",
                             "count = 100\nlength = 0\ndiameter = 1\n"));
