@@ -266,15 +266,16 @@ walls = [
   { axis = "z", side = "low", motion = { amplitude = 0.1, frequency = 2, phase = 0 } },
   { axis = "z", side = "high", motion = { velocity = 0 } },
   { axis = "x", side = "both", temperature = 2 },
-  { axis = "y", side = "both", motion = { tangential = [0, 0.1] } },
+  { axis = "y", side = "both", temperature = 2, motion = { tangential = [0, 0.1] } },
 ]
 )");
   ASSERT_EQ(run("run walls.toml --quiet --out a.h5").exit_code, 0);
   for (const char* name : {"a.xyz", "a.data", "a.dump", "a.pvd", "a.vtkhdf"}) {
     const Outcome exported = run(fmt::format("export a.h5 {}", name));
     EXPECT_EQ(exported.exit_code, 0) << exported.err;
-    for (const char* part : {"a.h5: walls.motion of z-low, y-low, y-high is left out: ",
-                             "a.h5: walls.temperature of x-low, x-high is left out: "})
+    for (const char* part :
+         {"a.h5: walls.motion of z-low, y-low, y-high is left out: ",
+          "a.h5: walls.temperature of x-low, x-high, y-low, y-high is left out: "})
       EXPECT_TRUE(contains(exported.err, part)) << name << ": " << exported.err;
   }
   write("thermal.toml",
