@@ -109,7 +109,7 @@ std::optional<Violation> piston_stops_behind(const Scene& scene) {
     const Scene::Wall& wall = scene.walls[side.entry];
     const auto& motion = wall.motion;
     if (!motion || motion->velocity.value_or(0) == 0 || !motion->stop_at) continue;
-    if (wall.side == "both") continue;  // which another rule is about
+    if (wall.side == "both") continue;                // which another rule is about
     if (scene.needles.box[side.axis] == 0) continue;  // that of a state, which is not known yet
     const double start = side.is_high ? scene.needles.box[side.axis] : 0;
     if ((*motion->stop_at - start) / *motion->velocity >= 0) continue;
