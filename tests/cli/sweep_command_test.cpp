@@ -1,5 +1,6 @@
 // `needlework sweep`: what it computes, and how it continues after it was stopped.
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
 

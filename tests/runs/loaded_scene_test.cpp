@@ -111,7 +111,7 @@ TEST(LoadedScene, WarnsOfAStateThatDriftsInAFlow) {
   Scene scene = test::scene_of(50, 5);
   const State state = draw_initial_state(scene);  // velocities of a gas that does not flow
   EXPECT_EQ(warning_of_state(complete_scene(scene, state)), "");
-  scene.shear.emplace().rate = 1;
+  scene.shear = Scene::Shear{.rate = 1, .offset = 0};
   EXPECT_TRUE(test::contains(warning_of_state(complete_scene(scene, state)),
                              "the state: says no flow, so its velocities are taken to have"));
   State beside = state;
