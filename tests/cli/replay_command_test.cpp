@@ -71,7 +71,7 @@ TEST_F(ReplayCommand, PrintsTheLastCollisionsOfTheNeedlesThatFail) {
   ASSERT_EQ(replay["last_collisions"].size(), 3u);
   std::uint64_t number = 0;
   for (const json& collision : replay["last_collisions"]) {
-    const json pair = collision["needles"];
+    const json& pair = collision["needles"];
     EXPECT_TRUE(std::any_of(pair.begin(), pair.end(), [&](const json& id) {
       return std::find(needles.begin(), needles.end(), id) != needles.end();
     })) << pair;
