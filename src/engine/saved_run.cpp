@@ -76,6 +76,7 @@ void require_body(const BodyNumbers& body, const Species& species) {
   require_within(body.length, 0, sizes.length.greatest);
   require_within(body.diameter, sizes.diameter.least, sizes.diameter.greatest);
   require_within(body.mass, sizes.mass.least, largest);
+  require(std::isfinite(body.inertia));
   if (!species.fixed) require_within(body.inertia, sizes.inertia.least, largest);
 }
 
